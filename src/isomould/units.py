@@ -1,0 +1,82 @@
+"""Lengths with units, parsed once at the border: inside the program every length is in mm."""
+
+import math
+import re
+from fractions import Fraction
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Strict
+
+LengthUnit = Literal["mm", "cm", "m", "in", "ft"]
+
+MM_PER_UNIT: dict[str, float] = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+
+_QUANTITY = re.compile(
+    r"\s*(?P<sign>[+-]?)(?:(?P<whole>\d+)\s+)?(?P<number>\d+/[1-9]\d*|\d*\.?\d+(?:[eE][+-]?\d+)?|\d+\.)"
+    r"\s*(?P<unit>mm|cm|m|in|ft)\s*"
+)
+
+
+def parse_length(value: object) -> float:
+    """Give a length in mm from a number (mm) or a string with a unit.
+
+    Raises
+    ------
+    ValueError
+        If the value is not a finite number, or a string without a known unit.
+
+    Examples
+    --------
+    >>> parse_length("24 m"), parse_length("1 1/2 in"), parse_length(12)
+    (24000.0, 38.1, 12.0)
+    """
+    if isinstance(value, str):
+        return _finite(_parse_text(value), value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        message = f"{value!r} is not a length; write a number in mm or a string such as '24 m'"
+        raise ValueError(message)
+    return _finite(float(value), value)
+
+
+def _parse_text(text: str) -> float:
+    match = _QUANTITY.fullmatch(text)
+    if match is None or (match["whole"] and "/" not in match["number"]):
+        message = f"{text!r} is not a length; write a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
+        raise ValueError(message)
+    number = Fraction(match["number"]) + Fraction(match["whole"] or 0)
+    sign = -1.0 if match["sign"] == "-" else 1.0
+    return sign * float(number * Fraction(str(MM_PER_UNIT[match["unit"]])))
+
+
+def _finite(length: float, value: object) -> float:
+    if not math.isfinite(length):
+        message = f"{value!r} is not a finite length"
+        raise ValueError(message)
+    return length
+
+
+def _positive(value: float) -> float:
+    if value <= 0:
+        message = f"{value:g} must be greater than zero"
+        raise ValueError(message)
+    return value
+
+
+def _not_negative(value: float) -> float:
+    if value < 0:
+        message = f"{value:g} must not be negative"
+        raise ValueError(message)
+    return value
+
+
+Number = Annotated[float, Strict()]
+"""A finite float (or integer), never a bool or a string."""
+PositiveNumber = Annotated[Number, AfterValidator(_positive)]
+NonNegativeNumber = Annotated[Number, AfterValidator(_not_negative)]
+Count = Annotated[int, Strict()]
+"""An integer, never a bool, a float or a string."""
+Flag = Annotated[bool, Strict()]
+Length = Annotated[float, BeforeValidator(parse_length)]
+"""A length in mm; accepts a number in mm or a string with a unit."""
+PositiveLength = Annotated[Length, AfterValidator(_positive)]
+NonNegativeLength = Annotated[Length, AfterValidator(_not_negative)]
