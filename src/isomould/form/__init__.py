@@ -1,0 +1,1 @@
+"""The surface: curves divided, multiplied out and flattened to a mesh."""

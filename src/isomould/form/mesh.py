@@ -1,0 +1,130 @@
+"""The mesh as general arrays: what is left of the product form once parts are made of it.
+
+Node (i, j) lies on parallel i and generatrix j. Generatrix edges run (i, j) → (i+1, j), parallel edges
+(i, j) → (i, j+1); faces are (i, j), (i, j+1), (i+1, j+1), (i+1, j): counter-clockwise from outside.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from isomould.arrays import Floats, Ints, read_only
+from isomould.form.surface import Surface, node_axes
+
+
+class Family(IntEnum):
+    """The family of a mesh edge."""
+
+    GENERATRIX = 0
+    PARALLEL = 1
+
+    @property
+    def word(self) -> str:
+        """The family's name in schedules."""
+        return self.name.lower()
+
+
+class NodeKind(IntEnum):
+    """The kind of a node: the first that applies."""
+
+    BOUNDARY = 0
+    FLAT = 1
+    INTERIOR = 2
+
+    @property
+    def word(self) -> str:
+        """The kind's name in schedules."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Nodes with axes, edges with families, ragged faces.
+
+    Attributes
+    ----------
+    nodes, axes : (n, 3) float, mm and unit
+    node_ij : (n, 2) int
+    kind : (n,) int
+        A `NodeKind` each.
+    edges : (e, 2) int
+    family : (e,) int
+        A `Family` each.
+    edge_ij : (e, 2) int
+        (i, j) of the edge's first node.
+    faces : (k,) int, face_offsets : (f + 1,) int
+        Corners of face f: `faces[face_offsets[f]:face_offsets[f + 1]]`.
+    face_ij : (f, 2) int
+    shape : (int, int)
+        Numbers of parallels and generatrices.
+    closed : (bool, bool)
+        Whether the profile and the rail are closed.
+    """
+
+    nodes: Floats
+    axes: Floats
+    node_ij: Ints
+    kind: Ints
+    edges: Ints
+    family: Ints
+    edge_ij: Ints
+    faces: Ints
+    face_offsets: Ints
+    face_ij: Ints
+    shape: tuple[int, int]
+    closed: tuple[bool, bool]
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                read_only(value)
+
+    @property
+    def quads(self) -> Ints:
+        """Corners (f, 4) of the faces."""
+        return self.faces.reshape(-1, 4)
+
+
+def make_mesh(surface: Surface) -> Mesh:
+    """Flatten the product form into arrays of nodes, edges and faces."""
+    parallels, generatrices = surface.V.shape[:2]
+    closed = (surface.profile.closed, surface.rail.closed)
+    number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
+    up, along = number[: parallels - (not closed[0])], number[:, : generatrices - (not closed[1])]
+    rows, strips = up.shape[0], along.shape[1]
+    above, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
+    corner = number[:rows, :strips]
+    quads = np.stack(
+        [corner, beside[:rows, :strips], np.roll(above, -1, axis=1)[:rows, :strips], above[:rows, :strips]]
+    )
+    edges = [np.stack([up, above[:rows]]), np.stack([along, beside[:, :strips]])]
+    first = np.concatenate([up.ravel(), along.ravel()])
+    return Mesh(
+        nodes=surface.V.reshape(-1, 3),
+        axes=node_axes(surface).reshape(-1, 3),
+        node_ij=_ij(number.ravel(), generatrices),
+        kind=_kinds(surface).ravel(),
+        edges=np.concatenate([edge.reshape(2, -1).T for edge in edges]),
+        family=np.repeat([Family.GENERATRIX, Family.PARALLEL], [up.size, along.size]),
+        edge_ij=_ij(first, generatrices),
+        faces=np.moveaxis(quads, 0, -1).ravel(),
+        face_offsets=np.arange(0, 4 * corner.size + 1, 4),
+        face_ij=_ij(corner.ravel(), generatrices),
+        shape=(parallels, generatrices),
+        closed=closed,
+    )
+
+
+def _ij(number: Ints, generatrices: int) -> Ints:
+    return np.stack(np.divmod(number, generatrices), axis=-1)
+
+
+def _kinds(surface: Surface) -> Ints:
+    rail, profile = surface.rail, surface.profile
+    kinds = np.full(surface.V.shape[:2], int(NodeKind.INTERIOR))
+    kinds[profile.flat] = NodeKind.FLAT
+    kinds[:, rail.flat] = NodeKind.FLAT
+    kinds[~profile.inner] = NodeKind.BOUNDARY
+    kinds[:, ~rail.inner] = NodeKind.BOUNDARY
+    return kinds

@@ -1,0 +1,115 @@
+"""The divided generatrix and its offset field: one-dimensional, because the surface is a product (geometry §4)."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from isomould.arrays import Bools, Floats, read_only
+from isomould.form.lattice import KoebeLattice
+from isomould.form.polygon import FLAT, CurvePolygon
+
+Offset = Literal["face", "edge"]
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """The profile polygon in the plane perpendicular to the rail.
+
+    Attributes
+    ----------
+    d, z : (m,) float, mm
+        Coordinates of the vertices along the rail's outside N and normal B.
+    a, b : (m,) float
+        Offset field `O[i, j] = a[i]·A[j] + b[i]·C[j]`; its direction is the node axis.
+    latitude : (e,) float, rad
+        μ: latitude of the outward normals of the e edges.
+    lengths : (e,) float, mm
+    inner, flat : (m,) bool
+        Vertices that are no open ends; those that do not turn.
+    closed : bool
+    offset : "face" or "edge"
+    """
+
+    d: Floats
+    z: Floats
+    a: Floats
+    b: Floats
+    latitude: Floats
+    lengths: Floats
+    inner: Bools
+    flat: Bools
+    closed: bool
+    offset: Offset
+
+    def __post_init__(self) -> None:
+        for name in ("d", "z", "a", "b", "latitude", "lengths", "inner", "flat"):
+            read_only(getattr(self, name))
+
+
+def make_profile(polygon: CurvePolygon, lattice: KoebeLattice | None) -> Profile:
+    """Give the profile with the face offset, or with the edge offset of a Koebe lattice.
+
+    Parameters
+    ----------
+    polygon
+        The divided generatrix in coordinates (d, z), its outside to the right.
+    lattice
+        The lattice that the polygon's directions came from, for edge offset meshes; None for the others.
+    """
+    latitude = polygon.edges.direction - np.pi / 2
+    turning = np.nan_to_num(polygon.turning)
+    a, b = _face_offset(polygon, latitude) if lattice is None else _edge_offset(polygon, lattice)
+    inner = np.isfinite(polygon.turning)
+    return Profile(
+        d=polygon.vertices[:, 0].copy(),
+        z=polygon.vertices[:, 1].copy(),
+        a=a,
+        b=b,
+        latitude=latitude,
+        lengths=polygon.lengths,
+        inner=inner,
+        flat=inner & (np.abs(turning) <= FLAT),
+        closed=polygon.closed,
+        offset="face" if lattice is None else "edge",
+    )
+
+
+def beside(polygon: CurvePolygon, values: Floats) -> tuple[Floats, Floats]:
+    """Edge values (e,) on the two sides (n,), (n,) of every vertex; an open end sees its one edge twice."""
+    if polygon.closed:
+        return np.roll(values, 1), values
+    return np.concatenate([values[:1], values]), np.concatenate([values, values[-1:]])
+
+
+def _face_offset(polygon: CurvePolygon, latitude: Floats) -> tuple[Floats, Floats]:
+    """Vertices of the polygon circumscribed to the unit circle with the edges' normals (geometry §4)."""
+    before, after = beside(polygon, latitude)
+    middle, reach = (before + after) / 2, np.cos((after - before) / 2)
+    if polygon.closed:
+        middle[0] = latitude[0] - polygon.turning[0] / 2
+        reach[0] = np.cos(polygon.turning[0] / 2)
+    return np.cos(middle) / reach, np.sin(middle) / reach
+
+
+def _edge_offset(polygon: CurvePolygon, lattice: KoebeLattice) -> tuple[Floats, Floats]:
+    """Latitudes λ of the vertices: what the two edges of a vertex share (geometry §5).
+
+    Edge k lies between λ_k and λ_{k+1}. Edges k and k ± 1 share λ of the larger index. A flat node inside an
+    edge may take either latitude of that edge, and takes that of the vertex before it. An open end takes the one
+    that its edge does not share.
+    """
+    before, after = (side.copy() for side in beside(polygon, polygon.edges.index))
+    shared = np.maximum(before, after)
+    for flat in np.flatnonzero(before[1:-1] == after[1:-1]) + 1:
+        shared[flat] = shared[flat - 1]
+    if not polygon.closed:
+        shared[0] = _other_end(polygon.edges.index[0], shared[1])
+        shared[-1] = _other_end(polygon.edges.index[-1], shared[-2])
+    latitude = lattice.latitude(shared)
+    return np.cos(latitude), np.sin(latitude)
+
+
+def _other_end(edge: float, shared: float) -> float:
+    """Latitude index at the free end of an end edge, whose other end has the index `shared`."""
+    return edge if shared == edge + 1 else edge + 1

@@ -1,0 +1,87 @@
+"""The `[rail]`, `[generatrix]` and `[surface]` tables of the project file, curves apart."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from isomould.settings import Settings
+from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
+
+Kind = Literal["isogonal", "moulding", "edge-offset"]
+Inflections = Literal["nearest", "refuse"]
+
+
+def _at_least_one(value: int) -> int:
+    if value < 1:
+        message = f"{value} must be at least 1"
+        raise ValueError(message)
+    return value
+
+
+PositiveCount = Annotated[Count, AfterValidator(_at_least_one)]
+
+
+class SlopePhase(Settings):
+    """Phase of an edge offset mesh by the normal latitude of one edge."""
+
+    slope_deg: Number
+
+
+class RailDivide(Settings):
+    """How the rail is divided: exactly one of `nodes`, `angle_deg` and `stations`; none for a drawn polyline."""
+
+    nodes: PositiveCount | None = None
+    angle_deg: PositiveNumber | None = None
+    stations: PositiveCount | tuple[Length, ...] | None = None
+    first_deg: Number | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> "RailDivide":
+        _refuse_two_ways(self, ("nodes", "angle_deg", "stations"))
+        return self
+
+
+class GeneratrixDivide(Settings):
+    """How the generatrix is divided: exactly one way; `phase` belongs to the kind edge-offset."""
+
+    nodes: PositiveCount | None = None
+    angle_deg: PositiveNumber | None = None
+    per_arc: PositiveCount | None = None
+    stations: PositiveCount | tuple[Length, ...] | None = None
+    phase: Literal["centre", "node"] | SlopePhase | None = None
+    first_deg: Number | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> "GeneratrixDivide":
+        _refuse_two_ways(self, ("nodes", "angle_deg", "per_arc", "stations", "phase"))
+        return self
+
+
+def _refuse_two_ways(table: Settings, names: tuple[str, ...]) -> None:
+    given = [name for name in names if getattr(table, name) is not None]
+    if len(given) > 1:
+        message = f"{' and '.join(given)} exclude each other; keep one of them"
+        raise ValueError(message)
+
+
+class Treatment(Settings):
+    """What the division does at inflections and short ends."""
+
+    inflections: Inflections = "nearest"
+    flat_nodes: Flag = False
+
+
+class SurfaceSettings(Settings):
+    """The `[surface]` table."""
+
+    kind: Kind = "isogonal"
+    min_pole_angle_deg: PositiveNumber = 5.0
+
+
+class FormLimits(Settings):
+    """Limits that the form stages hold: part of the `[tolerances]` and `[limits]` tables."""
+
+    min_member: PositiveLength = 100.0
+    max_deviation: NonNegativeLength | None = None
+    max_turning_deg: PositiveNumber = Field(default=60.0)
+    max_panels: PositiveCount = 200_000

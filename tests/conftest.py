@@ -1,0 +1,24 @@
+"""What all tests share. Example designs live in `museum`."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import isomould
+from museum import SMALL, write_project
+
+
+@pytest.fixture(scope="session")
+def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A delivered small project with sheets and bars in stock; copy it before changing it."""
+    folder = tmp_path_factory.mktemp("built")
+    project = write_project(folder / "small.toml", SMALL)
+    return isomould.build(project, folder / "small", effort="quick").folder
+
+
+@pytest.fixture
+def project_file(tmp_path: Path) -> Callable[[dict[str, Any]], Path]:
+    """Write a project's tables to a file in a folder of the test's own."""
+    return lambda data: write_project(tmp_path / "project.toml", data)

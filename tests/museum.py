@@ -1,0 +1,121 @@
+"""A museum of named designs for tests: the oracles of the mathematics and the shapes of the paper."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from isomould.design import Design, make_design
+from isomould.project.load import validate
+
+TEMPLATES = Path(__file__).parents[1] / "templates"
+
+VAULT: dict[str, Any] = {
+    "schema": 1,
+    "project": {"name": "Oracle C"},
+    "rail": {
+        "curve": {"kind": "parabola", "span": "20 m", "rise": "7.5 m"},
+        "plane": "xz",
+        "outside": [0, 1],
+        "divide": {"nodes": 18},
+        "ends": "square",
+    },
+    "generatrix": {
+        "curve": {"kind": "sine", "amplitude": "1 m", "wavelength": "12 m", "waves": 2},
+        "axes": "zd",
+        "divide": {"per_arc": 7},
+        "flat_nodes": True,
+    },
+    "surface": {"kind": "isogonal"},
+}
+"""Oracle C: 33 × 20 nodes, 8 regular interior classes and 1 flat."""
+
+EDGE_OFFSET_VAULT = {
+    **VAULT,
+    "rail": {**VAULT["rail"], "ends": "mitred"},
+    "generatrix": {**VAULT["generatrix"], "divide": {"phase": "centre"}},
+    "surface": {"kind": "edge-offset"},
+}
+"""Oracle D: the same curves with the slopes of an edge offset mesh."""
+
+
+def sphere(angle_deg: float, band_deg: float, radius: float = 10_000.0) -> dict[str, Any]:
+    """Oracle A: an edge offset sphere between the latitudes ±band."""
+    return {
+        "schema": 1,
+        "project": {"name": "Oracle A"},
+        "rail": {
+            "curve": {"kind": "circle", "radius": radius},
+            "outside": "outer",
+            "divide": {"angle_deg": angle_deg},
+        },
+        "generatrix": {
+            "curve": {"kind": "arc", "radius": radius, "start_deg": -band_deg, "end_deg": band_deg},
+            "origin": [-radius, 0],
+            "divide": {"phase": "centre"},
+        },
+        "surface": {"kind": "edge-offset"},
+        "tolerances": {"min_member": 1},
+        "members": {"section": {"kind": "plate", "depth": 60, "thickness": 6}},
+        "nodes": {"diameter_step": 1},
+        "panels": {"seat_width": 50, "gap": 8, "thickness": 6},
+        "limits": {"max_panels": 5000},
+    }
+
+
+SMALL: dict[str, Any] = {
+    "schema": 1,
+    "project": {"name": "Small", "number": "1", "revision": "0"},
+    "rail": {
+        "curve": {"kind": "parabola", "span": "8 m", "rise": "2.4 m"},
+        "plane": "xz",
+        "outside": [0, 1],
+        "divide": {"nodes": 4},
+    },
+    "generatrix": {
+        "curve": {"kind": "sine", "amplitude": "0.4 m", "wavelength": "9 m", "waves": 1},
+        "axes": "zd",
+        "divide": {"per_arc": 3},
+    },
+    "stock": {
+        "gap": 5,
+        "kerf": 2,
+        "trim": 10,
+        "bar_kerf": 3,
+        "bar_trim": 10,
+        "sheets": [{"name": "Sheet", "width": "4 m", "height": "2.5 m", "price": 100}],
+        "bars": [{"section": "FL200*12", "length": "6 m", "price": 80}],
+    },
+}
+"""A vault of 8 × 6 nodes with sheets and bars in stock: quick to build, everything in it."""
+
+
+def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:
+    """Compute a design from the tables of a project."""
+    return make_design(validate(data, "museum"), folder)
+
+
+def changed(data: dict[str, Any], **tables: dict[str, Any]) -> dict[str, Any]:
+    """Give a project with some keys of some tables replaced."""
+    return {**data, **{name: {**data.get(name, {}), **keys} for name, keys in tables.items()}}
+
+
+def write_project(path: Path, data: dict[str, Any]) -> Path:
+    """Write the tables of a project as TOML."""
+    path.write_text("".join(_lines(data)), encoding="utf-8")
+    return path
+
+
+def _lines(data: dict[str, Any]) -> list[str]:
+    plain = [f"{key} = {_toml(value)}\n" for key, value in data.items() if not isinstance(value, dict)]
+    tables = [(key, value) for key, value in data.items() if isinstance(value, dict)]
+    rows = [[f"\n[{key}]\n", *(f"{k} = {_toml(v)}\n" for k, v in table.items())] for key, table in tables]
+    return [*plain, *(line for row in rows for line in row)]
+
+
+def _toml(value: object) -> str:
+    """Write a value on one line; JSON strings, numbers and booleans are TOML too."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_toml(inner) for inner in value) + "]"
+    return json.dumps(value)
