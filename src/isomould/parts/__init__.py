@@ -1,0 +1,1 @@
+"""What is cut, marked and counted: nodes, members, panels."""

@@ -1,0 +1,88 @@
+"""The arms of every node: the mesh edges as seen from their ends, in the node's own frame (fabrication, Node solids).
+
+Azimuths are measured about the node axis, counter-clockwise from outside; elevations from the plane
+perpendicular to it, positive to the outside.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Floats, Ints, read_only
+from isomould.form.mesh import Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Arms:
+    """All arms, sorted by node and azimuth; node k has the arms `offsets[k]:offsets[k + 1]`.
+
+    Attributes
+    ----------
+    node, edge, end : (a,) int
+        Whose arm it is, of which mesh edge, and whether it is the edge's start (0) or end (1).
+    direction : (a, 3) float
+        Unit vectors away from the node.
+    azimuth, elevation : (a,) float, rad
+        Azimuth from an arbitrary zero of the node: only differences mean anything.
+    gap : (a,) float, rad
+        Azimuth to the next arm of the same node; the gaps of a node sum to 2π.
+    offsets : (n + 1,) int
+    """
+
+    node: Ints
+    edge: Ints
+    end: Ints
+    direction: Floats
+    azimuth: Floats
+    elevation: Floats
+    gap: Floats
+    offsets: Ints
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            read_only(value)
+
+
+def find_arms(mesh: Mesh) -> Arms:
+    """Measure the arms of all nodes."""
+    count = len(mesh.edges)
+    node = mesh.edges.T.ravel()
+    far = mesh.edges[:, ::-1].T.ravel()
+    direction = normalised(mesh.nodes[far] - mesh.nodes[node])
+    azimuth, elevation = _angles(mesh.axes[node], direction)
+    order = np.lexsort((azimuth, node))
+    offsets = np.concatenate([[0], np.cumsum(np.bincount(node, minlength=len(mesh.nodes)))])
+    return Arms(
+        node=node[order],
+        edge=np.tile(np.arange(count), 2)[order],
+        end=np.repeat([0, 1], count)[order],
+        direction=direction[order],
+        azimuth=azimuth[order],
+        elevation=elevation[order],
+        gap=_gaps(azimuth[order], offsets),
+        offsets=offsets,
+    )
+
+
+def normalised(vectors: Floats) -> Floats:
+    """Vectors (…, 3) divided by their lengths."""
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def across(axes: Floats) -> tuple[Floats, Floats]:
+    """Two unit vectors (n, 3), (n, 3) that make right-handed frames with the unit axes (n, 3)."""
+    helper = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    first = normalised(np.cross(helper, axes))
+    return first, np.cross(axes, first)
+
+
+def _angles(axes: Floats, direction: Floats) -> tuple[Floats, Floats]:
+    first, second = across(axes)
+    x, y, z = (np.einsum("ij,ij->i", axis, direction) for axis in (first, second, axes))
+    return np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
+
+
+def _gaps(azimuth: Floats, offsets: Ints) -> Floats:
+    following = np.arange(1, len(azimuth) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return np.mod(azimuth[following] - azimuth, 2 * np.pi)

@@ -1,0 +1,154 @@
+"""Which instances are the same part: complete-linkage classes of equivalent descriptions (geometry §7).
+
+An instance has several equal descriptions (*variants*): a node may be read from any of its arms, a plate turned over
+or end for end, a panel's outline started at any corner. A description is a row of numbers with tolerances
+and a row of labels that must be equal. Two instances are the same part if some variant of one agrees with
+the other's. A class holds max − min ≤ tolerance in every number: never a chain of neighbours.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Bools, Floats, Ints, read_only
+
+_SNAP = 1e-6
+"""mm or rad: differences below it are rounding noise when equal descriptions are looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Classes:
+    """Instances sorted into classes, numbered by their first instance.
+
+    Attributes
+    ----------
+    of : (n,) int
+        Class of each instance.
+    variant : (n,) int
+        The variant of the instance that agrees with the class's canonical one.
+    representative : (k,) int
+        The instance that each class is made from: its first.
+    canonical : (k,) int
+        The representative's variant that describes the class.
+    deviation : (n, q) float
+        Absolute differences between the instance's agreeing variant and the class's description.
+    """
+
+    of: Ints
+    variant: Ints
+    representative: Ints
+    canonical: Ints
+    deviation: Floats
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            read_only(value)
+
+    @property
+    def quantity(self) -> Ints:
+        """Number of instances (k,) of each class."""
+        return np.bincount(self.of, minlength=len(self.representative))
+
+
+def classify(numbers: Floats, labels: Ints, tolerance: Floats, *, natural: bool) -> Classes:
+    """Sort instances into classes.
+
+    Parameters
+    ----------
+    numbers : (n, s, q) float
+        The s variants of every instance.
+    labels : (n, s, r) int
+        Labels of each variant; they must agree exactly.
+    tolerance : (q,) float
+        Largest admissible spread of each number within a class.
+    natural
+        Describe a class by its representative as it stands (variant 0) and not by its smallest variant.
+    """
+    best = smallest(numbers, labels)
+    rows = np.arange(len(numbers))
+    rounded = np.concatenate([labels[rows, best], _snapped(numbers[rows, best])], axis=1)
+    _, first, proto = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
+    merged = _merge(numbers[first], labels[first], best[first], tolerance)
+    return _describe(numbers, labels, np.zeros_like(best) if natural else best, merged[proto.ravel()])
+
+
+def smallest(numbers: Floats, labels: Ints) -> Ints:
+    """Number (n,) of the lexicographically smallest variant: labels first, then numbers, noise apart."""
+    columns = np.concatenate([labels, _snapped(numbers)], axis=2)
+    alive = np.ones(columns.shape[:2], dtype=bool)
+    top = np.iinfo(np.int64).max
+    for column in np.moveaxis(columns, 2, 0):
+        value = np.where(alive, column, top)
+        alive &= value == value.min(axis=1, keepdims=True)
+    return np.argmax(alive, axis=1)
+
+
+def agrees_with_mirror(numbers: Floats, mirrored: Floats, labels: Ints, tolerance: Floats) -> Bools:
+    """Tell (k,) whether descriptions (k, q) agree with one of their mirror images' variants (k, s, q).
+
+    `labels` (k, s + 1, r) are those of the description, then of the variants.
+    """
+    spread = np.abs(mirrored - numbers[:, None]) <= tolerance
+    equal = labels[:, 1:] == labels[:, :1]
+    return np.any(spread.all(axis=2) & equal.all(axis=2), axis=1)
+
+
+def _snapped(numbers: Floats) -> Ints:
+    return np.round(numbers / _SNAP).astype(np.int64)
+
+
+def _merge(numbers: Floats, labels: Ints, best: Ints, tolerance: Floats) -> Ints:
+    """Class (p,) of each distinct description, by complete linkage in the order of an invariant of the variants.
+
+    Descriptions that agree differ in the invariant by q at most, so each meets only the last few classes.
+    """
+    size = np.abs(numbers[:, 0] / tolerance).sum(axis=1)
+    low, high = np.empty_like(numbers[:, 0]), np.empty_like(numbers[:, 0])
+    founder, count, window = np.empty(len(size), dtype=np.int64), 0, 0
+    of = np.empty(len(size), dtype=np.int64)
+    for proto in np.argsort(size, kind="stable"):
+        while window < count and size[founder[window]] < size[proto] - len(tolerance) - 1:
+            window += 1
+        open_classes = slice(window, count)
+        tags = labels[founder[open_classes], best[founder[open_classes]]]
+        fit = _first_fit(numbers[proto], labels[proto], low[open_classes], high[open_classes], tags, tolerance)
+        if fit is None:
+            founder[count], low[count], high[count] = (
+                proto,
+                numbers[proto, best[proto]],
+                numbers[proto, best[proto]],
+            )
+            of[proto], count = count, count + 1
+            continue
+        of[proto], row = window + fit[0], numbers[proto, fit[1]]
+        low[of[proto]], high[of[proto]] = np.minimum(low[of[proto]], row), np.maximum(high[of[proto]], row)
+    return of
+
+
+def _first_fit(
+    variants: Floats, labels: Ints, low: Floats, high: Floats, tags: Ints, tolerance: Floats
+) -> tuple[int, int] | None:
+    """Class and variant (s, q) that keep max − min within the tolerance; None if no class (k, q) does."""
+    spread = np.maximum(high[:, None], variants) - np.minimum(low[:, None], variants)
+    fits = (spread <= tolerance).all(axis=2) & (labels[None] == tags[:, None]).all(axis=2)
+    if not fits.any():
+        return None
+    where = np.argwhere(fits)
+    tightest = np.argmin((spread / tolerance).max(axis=2)[fits])
+    return int(where[tightest, 0]), int(where[tightest, 1])
+
+
+def _describe(numbers: Floats, labels: Ints, best: Ints, of: Ints) -> Classes:
+    """Number the classes by their first instance and align every instance with its class."""
+    _, first, place = np.unique(of, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.argsort(order)[place.ravel()]
+    representative = first[order]
+    canonical = best[representative]
+    target = numbers[representative, canonical][rank]
+    tags = labels[representative, canonical][rank]
+    difference = np.abs(numbers - target[:, None])
+    misfit = np.round((difference / _SNAP).max(axis=2))
+    misfit[~(labels == tags[:, None]).all(axis=2)] = np.inf
+    variant = np.argmin(misfit, axis=1)
+    return Classes(rank, variant, representative, canonical, difference[np.arange(len(of)), variant])

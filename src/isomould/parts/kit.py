@@ -1,0 +1,76 @@
+"""Everything that is cut, marked and counted, made from one mesh."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Floats
+from isomould.errors import Note
+from isomould.form.mesh import Mesh
+from isomould.parts.arms import Arms, find_arms
+from isomould.parts.drum import Drum, size_drum
+from isomould.parts.members import MemberParts, make_members
+from isomould.parts.nodes import NodeParts, classify_nodes
+from isomould.parts.panels import PanelParts, make_panels
+from isomould.parts.quality import beam_mismatch, node_torsion, refuse_torsion
+from isomould.parts.settings import CongruenceSettings, MemberSettings, NodeSettings, PanelSettings
+
+
+@dataclass(frozen=True)
+class KitSettings:
+    """The settings of all parts."""
+
+    members: MemberSettings
+    nodes: NodeSettings
+    panels: PanelSettings
+    tolerance: CongruenceSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Kit:
+    """The parts of a design.
+
+    Attributes
+    ----------
+    mesh, arms
+        What they were made from.
+    nodes, drum, members, panels
+        Classes with marks, instances with locations.
+    mismatch, torsion : (n,) float, mm and rad
+        Of every node.
+    """
+
+    mesh: Mesh
+    arms: Arms
+    nodes: NodeParts
+    drum: Drum
+    members: MemberParts
+    panels: PanelParts
+    mismatch: Floats
+    torsion: Floats
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What should be known about the parts."""
+        worst = int(np.argmax(self.mismatch))
+        text = f"beams mismatch by up to {self.mismatch[worst]:.3f} mm at a node ({self.nodes.locations[worst]})"
+        return (Note("W-NODE-MISMATCH", "surface.kind", text),) if self.mismatch[worst] > 1e-6 else ()
+
+
+def make_kit(mesh: Mesh, settings: KitSettings) -> Kit:
+    """Sort nodes, members and panels into classes and size one part of each.
+
+    Raises
+    ------
+    Refused
+        If a part cannot be made as asked.
+    """
+    arms = find_arms(mesh)
+    nodes = classify_nodes(mesh, arms, settings.tolerance)
+    torsion = node_torsion(mesh, arms)
+    refuse_torsion(torsion, nodes.locations)
+    section = settings.members.section
+    drum = size_drum(nodes.arms, section, settings.nodes)
+    members = make_members(mesh, arms, nodes, drum, settings.members, settings.tolerance)
+    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance)
+    return Kit(mesh, arms, nodes, drum, members, panels, beam_mismatch(arms, section.depth), torsion)
