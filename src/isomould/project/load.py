@@ -1,0 +1,173 @@
+"""Reading project files: TOML, overrides, and errors that name the field and the nearest key."""
+
+import difflib
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast, get_args
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from isomould.errors import OutputFault, Refused
+from isomould.project.schema import Project
+from isomould.settings import Settings
+
+_LARGEST_FILE = 1_000_000
+
+
+@dataclass(frozen=True)
+class LoadedProject:
+    """A validated project, the folder that its file references start from, and its source text."""
+
+    project: Project
+    folder: Path
+    source: bytes
+
+
+def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
+    """Read a project file.
+
+    Parameters
+    ----------
+    path
+        A TOML file.
+    overrides
+        Changes such as `rail.curve.rise="8 m"`, applied in order before validation.
+
+    Raises
+    ------
+    Refused
+        Naming the field, what was found, and the nearest key or the admissible values.
+    OutputFault
+        If the file cannot be read.
+    """
+    source = _read(path)
+    data = _parse(source, path)
+    for change in overrides:
+        _override(data, change)
+    return LoadedProject(validate(data, path.name), path.resolve().parent, source)
+
+
+def validate(data: Mapping[str, Any], name: str) -> Project:
+    """Check the tables of a project and give the typed value; `name` is the file's, for errors."""
+    try:
+        return Project.model_validate(data)
+    except ValidationError as error:
+        findings = [_describe(detail, data) for detail in error.errors()]
+        field, found, limit, way_out = findings[0]
+        others = "".join(f"\n  also {f[0]}: {f[1]}. {f[3]}" for f in findings[1:])
+        raise Refused("E-PROJECT", f"{name}: {field}", found, limit, way_out + others) from None
+
+
+def _read(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > _LARGEST_FILE:
+            size = path.stat().st_size
+            raise Refused(
+                "E-PROJECT-SIZE",
+                str(path),
+                f"{size} bytes",
+                f"{_LARGEST_FILE} bytes",
+                "Is it a project file?",
+            )
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise Refused(
+            "E-PROJECT-FILE",
+            str(path),
+            "no such file",
+            "a project file (TOML)",
+            "Start one with: isomould new NAME",
+        ) from None
+    except OSError as error:
+        message = f"E-PROJECT-FILE {path}: cannot be read ({error.strerror}). Check the path and its permissions."
+        raise OutputFault(message) from error
+
+
+def _parse(source: bytes, path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(source.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        found, way_out = f"byte {error.start} is not UTF-8", "Save the file as UTF-8."
+        raise Refused("E-PROJECT-TEXT", str(path), found, "UTF-8 text", way_out) from None
+    except tomllib.TOMLDecodeError as error:
+        raise Refused("E-PROJECT-TOML", str(path), str(error), "valid TOML", "Mend the line.") from None
+
+
+def _override(data: dict[str, Any], change: str) -> None:
+    """Set one value by its dotted key; the value is TOML, or text if it is none."""
+    key, equals, text = change.partition("=")
+    if not equals or not all(key.split(".")):
+        raise Refused(
+            "E-SET",
+            f"--set {change}",
+            "no KEY=VALUE",
+            "a dotted key and a value",
+            'Write --set rail.curve.rise="8 m".',
+        )
+    try:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        value = text
+    *tables, last = key.strip().split(".")
+    place = data
+    for table in tables:
+        inner = place.setdefault(table, {})
+        if not isinstance(inner, dict):
+            raise Refused("E-SET", f"--set {change}", f"{table} is a value", "a table", "Check the key.")
+        place = cast("dict[str, Any]", inner)
+    place[last] = value
+
+
+def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, str, str]:
+    """Field, value found, limit and way out of one finding of pydantic's."""
+    path, siblings = _locate(detail["loc"], data)
+    field = ".".join(path) or "project file"
+    value = detail["input"]
+    if detail["type"] == "extra_forbidden":
+        near = difflib.get_close_matches(path[-1], _known_keys(path[:-1]), 1, 0.5)
+        hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
+        return field, "unknown key", "the keys of this table", hint
+    if detail["type"] == "missing":
+        return (
+            field,
+            "missing",
+            "required",
+            f"Add it to {'.'.join(path[:-1]) or 'the file'} ({', '.join(siblings) or 'empty'} given).",
+        )
+    message = detail["msg"].removeprefix("Value error, ")
+    shown = "" if isinstance(value, dict | list) or value is None else f"{value!r}: "
+    return field, f"{shown}{message}", "see docs/project-file.md", "Change the value."
+
+
+def _locate(location: Sequence[str | int], data: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """Path of a finding without the names that pydantic gives to the members of unions; keys beside it."""
+    path: list[str] = []
+    place: Any = data
+    siblings: list[str] = []
+    for depth, part in enumerate(location):
+        last = depth == len(location) - 1
+        here = isinstance(place, dict) and (part in place or last)
+        if here or (isinstance(part, int) and isinstance(place, list)):
+            siblings = [str(key) for key in place] if isinstance(place, dict) else []
+            path.append(str(part))
+            place = place.get(part) if isinstance(place, dict) else place[int(part)]
+    return path, siblings
+
+
+def _known_keys(tables: Sequence[str]) -> list[str]:
+    """Keys that the table at a path may have, in all its variants."""
+    models: set[type[Settings]] = {Project}
+    for table in tables:
+        fields = [f for m in models for name, f in m.model_fields.items() if (f.alias or name) == table]
+        models = {model for field in fields for model in _settings_in(field.annotation)} or models
+    return sorted({field.alias or name for model in models for name, field in model.model_fields.items()})
+
+
+def _settings_in(annotation: object) -> set[type[Settings]]:
+    """All settings types inside an annotation."""
+    if isinstance(annotation, type) and issubclass(annotation, Settings):
+        return {annotation}
+    return {model for part in get_args(annotation) for model in _settings_in(part)}

@@ -1,0 +1,97 @@
+"""Project files: what is read, and what is refused with which words."""
+
+import pytest
+from museum import SMALL, TEMPLATES, changed
+
+from isomould.errors import Refused
+from isomould.project.load import load_project, validate
+from isomould.templates import template_names
+
+
+@pytest.mark.parametrize("name", template_names())
+def test_templates_are_valid(name):
+    project = load_project(TEMPLATES / f"{name}.toml").project
+    assert project.schema_ == 1
+
+
+def test_lengths_take_units(project_file):
+    path = project_file(changed(SMALL, panels={"gap": "1/2 in", "spacer": "0.3 cm"}))
+    panels = load_project(path).project.panels
+    assert (panels.gap, panels.spacer) == (12.7, 3.0)
+
+
+def test_overrides_come_before_validation(project_file):
+    loaded = load_project(project_file(SMALL), ['rail.curve.rise="3 m"', "rail.divide.nodes=5", "project.name=New"])
+    assert (loaded.project.rail.curve.rise, loaded.project.rail.divide.nodes) == (3000.0, 5)
+    assert loaded.project.project.name == "New"
+
+
+BROKEN = {
+    "unknown key": ({"rail": {"divid": {"nodes": 3}}}, ["rail.divid", "unknown key", "'divide'"]),
+    "unknown key in a curve": ({"rail": {"curve": {"kind": "parabola", "span": 8000, "rize": 2}}}, ["rise"]),
+    "unknown table": ({"panel": {"gap": 3}}, ["panel", "'panels'"]),
+    "wrong unit": ({"panels": {"gap": "12 cubits"}}, ["panels.gap", "12 cubits", "mm, cm, m, in, ft"]),
+    "decimal comma": ({"panels": {"gap": "12,5 mm"}}, ["panels.gap", "12,5 mm"]),
+    "a flag for a length": ({"panels": {"gap": True}}, ["panels.gap", "True is not a length"]),
+    "negative": ({"panels": {"thickness": -3}}, ["panels.thickness", "-3"]),
+    "two ways to divide": ({"rail": {"divide": {"nodes": 3, "angle_deg": 4}}}, ["nodes and angle_deg exclude"]),
+    "float for a count": ({"rail": {"divide": {"nodes": 3.5}}}, ["rail.divide.nodes", "3.5"]),
+    "unknown kind": ({"surface": {"kind": "blob"}}, ["surface.kind", "'isogonal'"]),
+    "kind without one angle": ({"rail": {"divide": {"stations": 4}}}, ["surface.kind = 'isogonal'", "angle_deg"]),
+    "phase without edge offset": ({"generatrix": {"divide": {"phase": "centre"}}}, ["edge-offset"]),
+    "line break in the name": ({"project": {"name": "a\nb"}}, ["project.name", "control characters"]),
+    "direction override in the name": ({"project": {"name": "a\u202eb"}}, ["project.name"]),
+    "kerf over gap": ({"stock": {"gap": 1, "kerf": 3}}, ["gap 1 mm is less than the kerf 3 mm"]),
+    "future schema": ({"schema": 2}, ["schema", "1"]),
+    "layer with a line break": ({"deliver": {"layers": {"CUT": "A\nB"}}}, ["deliver.layers"]),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_broken_projects_are_refused_by_name(case):
+    change, words = BROKEN[case]
+    data = {**SMALL, **{k: {**SMALL.get(k, {}), **v} if isinstance(v, dict) else v for k, v in change.items()}}
+    with pytest.raises(Refused) as refusal:
+        validate(data, "project.toml")
+    for word in words:
+        assert word in str(refusal.value)
+
+
+def test_missing_tables_are_named():
+    with pytest.raises(Refused, match="rail"):
+        validate({key: value for key, value in SMALL.items() if key != "rail"}, "project.toml")
+
+
+def test_all_findings_are_told_at_once():
+    with pytest.raises(Refused) as refusal:
+        validate(changed(SMALL, panels={"gap": -1, "spacerr": 2}), "project.toml")
+    assert "panels.gap" in str(refusal.value)
+    assert "panels.spacerr" in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "word"),
+    [
+        (b"\xff\xfe", "not UTF-8"),
+        (b"schema = ", "TOML"),
+        (b"a = 1\na = 2", "TOML"),
+        (b"x = nan", "unknown key"),
+        (b"", "missing"),
+    ],
+)
+def test_broken_files(tmp_path, content, word):
+    path = tmp_path / "broken.toml"
+    path.write_bytes(content)
+    with pytest.raises(Refused, match=word):
+        load_project(path)
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(Refused, match="no such file"):
+        load_project(tmp_path / "nothing.toml")
+
+
+@pytest.mark.parametrize("change", ["gap", "=3", "panels..gap=3", "schema.x=1"])
+def test_broken_overrides(project_file, change):
+    with pytest.raises(Refused, match="--set"):
+        load_project(project_file(SMALL), [change])
