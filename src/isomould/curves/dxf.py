@@ -1,0 +1,290 @@
+"""Reading the one curve on a layer of a DXF file (failure modes A1 to A7).
+
+The file is read strictly: what a lenient reader would repair or leave out is refused.
+"""
+
+import logging
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ezdxf.document import Drawing as Document
+from ezdxf.entities.dxfgfx import DXFGraphic
+from ezdxf.filemanagement import readfile
+from ezdxf.lldxf.const import DXFError
+
+from isomould.curves.chains import chained
+from isomould.curves.entities import TRACERS, name_of, says_closed
+from isomould.curves.plane import Plane
+from isomould.curves.shapes import Draft
+from isomould.curves.spatial import Shape, Traced, laid_flat
+from isomould.errors import Note, OutputFault, Refused
+from isomould.units import MM_PER_UNIT, LengthUnit
+
+LARGEST_FILE = 100 * 2**20
+"""Bytes; a drawing of one curve is far smaller."""
+
+# ezdxf logs its warnings; without a handler Python would print them
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+
+_MM_PER_INSUNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 7: 1e6, 10: 914.4, 14: 100.0}
+_FAULTS = (
+    DXFError, OSError, ValueError, TypeError, ArithmeticError, LookupError, AttributeError, StopIteration,
+    RecursionError,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """Which curve of which file."""
+
+    path: Path
+    layer: str
+    units: LengthUnit | None
+    """Of a drawing that does not say; otherwise it must agree."""
+    plane: Plane | None
+    """What a drawing in world coordinates is projected on; None for one drawn flat."""
+
+
+class _Found(NamedTuple):
+    """A visible entity of the layer, and how messages call it."""
+
+    entity: DXFGraphic
+    name: str
+
+
+def read_curve(drawing: Drawing, field: str) -> Draft:
+    """Read the one curve on the drawing's layer.
+
+    Raises
+    ------
+    Refused
+        E-DXF-FILE, -UNITS, -LAYER, -ENTITY, -BLOCK, -CURVES or -PLANE, E-SPLINE-….
+    OutputFault
+        If the system does not let the file be read.
+    """
+    document = _open(drawing.path, field)
+    factor = _factor(document, drawing.units, field)
+    found = _on_layer(document, drawing.layer, field)
+    traced = [_traced(one, factor, field) for one in found]
+    strokes, repeated = laid_flat(traced, drawing.plane, field)
+    pieces, closed = chained(strokes, field)
+    return Draft(pieces, closed, (*_remarks(found, field), *repeated))
+
+
+# --- the file
+
+
+def _open(path: Path, field: str) -> Document:
+    _refuse_no_dxf(path, field)
+    with _guarded("E-DXF-FILE", field, f"{path.name} is damaged"):
+        return readfile(path)
+
+
+def _refuse_no_dxf(path: Path, field: str) -> None:
+    """Refuse what is no complete text DXF before the reader sees it (failure mode A1)."""
+    size = _size(path, field)
+    if not 0 < size <= LARGEST_FILE:
+        _refuse("FILE", field, f"{path.name} has {size} bytes", f"1 to {LARGEST_FILE}", "Save the curve alone.")
+    head, tail = _head_and_tail(path, size)
+    if head.startswith(b"AutoCAD Binary DXF"):
+        _refuse("FILE", field, f"{path.name} is a binary DXF", "a text DXF", "Save it as a text (ASCII) DXF.")
+    if tail.split()[-2:] != [b"0", b"EOF"]:
+        found = f"{path.name} does not end like a DXF file (cut off, or another format)"
+        _refuse("FILE", field, found, "a complete DXF file", "Save it again as DXF.")
+
+
+def _size(path: Path, field: str) -> int:
+    if not path.is_file():
+        _refuse("FILE", field, f"{path} is no file", "an existing DXF file", "Check the name and its folder.")
+    return path.stat().st_size
+
+
+def _head_and_tail(path: Path, size: int) -> tuple[bytes, bytes]:
+    try:
+        with path.open("rb") as file:
+            head = file.read(32)
+            file.seek(max(0, size - 64))
+            return head, file.read()
+    except OSError as error:
+        message = f"{path}: {error.strerror}"
+        raise OutputFault(message) from error
+
+
+def _factor(document: Document, units: LengthUnit | None, field: str) -> float:
+    """Give mm per drawing unit (failure mode A3)."""
+    code = int(document.header.get("$INSUNITS", 0))
+    said, asked = _MM_PER_INSUNITS.get(code), MM_PER_UNIT.get(units or "")
+    if code != 0 and said is None:
+        _refuse("UNITS", field, f"drawing units $INSUNITS {code}", "mm, cm, dm, m, km, in, ft or yd", _CONVERT)
+    if said is None and asked is None:
+        _refuse("UNITS", f"{field}.units", "a drawing without units", "known units", 'Set units, such as "mm".')
+    if said is not None and asked is not None and said != asked:
+        found = f"{units} ({asked:g} mm), but the drawing says $INSUNITS {code} ({said:g} mm)"
+        _refuse("UNITS", f"{field}.units", found, "agreement", "Leave units out, or correct the drawing.")
+    return said or asked or 1.0
+
+
+_CONVERT = "Convert the drawing to millimetres."
+
+
+# --- the layer
+
+
+def _on_layer(document: Document, layer: str, field: str) -> list[_Found]:
+    with _guarded("E-DXF-BLOCK", field, "the blocks cannot be read"):
+        found = [f for entity in document.modelspace() for f in _visible(document, entity, (layer, None), field)]
+    if not found:
+        layers = sorted({entity.dxf.layer for entity in document.modelspace()})
+        limit = f"one of {', '.join(layers[:12])}" if layers else "a drawing with entities"
+        _refuse("LAYER", f"{field}.layer", f"nothing on layer {layer!r}", limit, "Check the layer's name.")
+    _refuse_hidden(document, layer, field)
+    return found
+
+
+def _visible(document: Document, entity: DXFGraphic, layers: tuple[str, str | None], field: str) -> Iterator[_Found]:
+    """Give the entity, or what an INSERT holds, if it is on the wanted layer; layers = (wanted, parent's)."""
+    wanted, parent = layers
+    own = parent if parent is not None and entity.dxf.layer == "0" else entity.dxf.layer
+    if entity.dxftype() == "INSERT":
+        yield from _inserted(document, entity, (wanted, own), field)
+    elif own.casefold() == wanted.casefold():
+        yield _Found(entity, name_of(entity))
+
+
+def _inserted(document: Document, insert: Any, layers: tuple[str, str], field: str) -> list[_Found]:
+    """Give what an INSERT shows on the wanted layer, in its place (failure mode A4)."""
+    block = insert.block()
+    if block is None or block.block.is_xref or block.block.is_xref_overlay:
+        return _refuse_xref(insert, layers, field)
+    name = f"{name_of(insert)} (block {insert.dxf.name})"
+    found = [
+        _Found(inner.entity, f"{inner.entity.dxftype()} in {name}")
+        for one in (insert.multi_insert() if insert.mcount > 1 else [insert])
+        for entity in _exploded(one)
+        for inner in _visible(document, entity, layers, field)
+    ]
+    if found:
+        _refuse_skewed(document, insert, name, field)
+        _refuse_hidden(document, layers[1], field)
+    return found
+
+
+def _exploded(insert: Any) -> list[DXFGraphic]:
+    """Give the block's entities in place; those that cannot be placed stay, for `_traced` to refuse."""
+    skipped: list[DXFGraphic] = []
+
+    def keep(entity: DXFGraphic, _reason: str) -> None:
+        skipped.append(entity)
+
+    placed = list(insert.virtual_entities(skipped_entity_callback=keep))
+    return [*placed, *skipped]
+
+
+def _refuse_xref(insert: Any, layers: tuple[str, str], field: str) -> list[_Found]:
+    if layers[0].casefold() == layers[1].casefold():
+        found = f"{name_of(insert)} refers to another drawing, or to no block"
+        _refuse("BLOCK", field, found, "a curve in this file", "Bind the reference into the drawing.")
+    return []
+
+
+def _refuse_skewed(document: Document, insert: Any, name: str, field: str) -> None:
+    scale = [insert.dxf.get(axis, 1.0) for axis in ("xscale", "yscale", "zscale")]
+    if not insert.has_uniform_scaling:
+        found = f"{name} has scales {scale[0]:g}, {scale[1]:g}, {scale[2]:g}"
+        _refuse("BLOCK", field, found, "one scale for all axes", "Explode the block in the drawing.")
+    units = insert.block().units
+    if units not in (0, document.header.get("$INSUNITS", 0)):
+        found = f"{name} has units {units} of its own"
+        _refuse("BLOCK", field, found, "the drawing's units", "Explode the block in the drawing.")
+
+
+def _refuse_hidden(document: Document, name: str, field: str) -> None:
+    layer = document.layers.get(name) if document.layers.has_entry(name) else None
+    if layer is not None and (layer.is_frozen() or layer.is_off()):
+        state = "frozen" if layer.is_frozen() else "off"
+        _refuse(
+            "LAYER",
+            f"{field}.layer",
+            f"layer {name!r} is {state}",
+            "a visible layer",
+            "Thaw it or turn it on.",
+        )
+
+
+def _traced(found: _Found, factor: float, field: str) -> Traced:
+    """Turn an entity into shapes in space, mm."""
+    entity, name = found
+    trace = TRACERS.get(entity.dxftype())
+    if trace is None or entity.dxf.get("invisible", 0):
+        limit = f"visible {', '.join(sorted(TRACERS))}"
+        way_out = "Move it to another layer, or convert it."
+        raise Refused(code="E-DXF-ENTITY", field=field, found=name, limit=limit, way_out=way_out)
+    with _guarded("E-DXF-ENTITY", field, name):
+        drawn = [shape._replace(anchors=factor * shape.anchors) for shape in _located(trace, entity, field)]
+    return Traced(name, drawn, says_closed(entity))
+
+
+def _located(trace: Callable[[Any], list[Shape]], entity: DXFGraphic, field: str) -> list[Shape]:
+    """Trace the entity; a refusal by its handle gets the project's field before it."""
+    try:
+        return trace(entity)
+    except Refused as error:
+        where = f"{field}, {error.field}"
+        raise Refused(error.code, where, error.found, error.limit, error.way_out) from None
+
+
+# --- messages
+
+
+def _remarks(found: list[_Found], field: str) -> tuple[Note, ...]:
+    """Note what was transformed or interpreted (failure mode A4)."""
+    return (
+        *_remark("W-DXF-BLOCK", field, "placed as its INSERT says", [f for f in found if " in INSERT " in f.name]),
+        *_remark("W-DXF-OCS", field, "drawn in a turned or mirrored system, read as CAD shows it", _turned(found)),
+        *_remark(
+            "W-DXF-FIT",
+            field,
+            "fit points only: a C2 cubic by chord length laid through them",
+            _fitted(found),
+        ),
+    )
+
+
+def _remark(code: str, field: str, text: str, found: list[_Found]) -> tuple[Note, ...]:
+    names = ", ".join(f.name for f in found[:4]) + (f" and {len(found) - 4} more" if len(found) > 4 else "")
+    return (Note(code, field, f"{names}: {text}"),) if found else ()
+
+
+def _turned(found: list[_Found]) -> list[_Found]:
+    in_ocs = {"ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"}
+    upright = (0.0, 0.0, 1.0)
+    return [
+        f for f in found if f.entity.dxftype() in in_ocs and tuple(f.entity.dxf.get("extrusion", upright)) != upright
+    ]
+
+
+def _fitted(found: list[_Found]) -> list[_Found]:
+    splines: list[tuple[_Found, Any]] = [(f, f.entity) for f in found if f.entity.dxftype() == "SPLINE"]
+    return [f for f, spline in splines if not len(spline.control_points)]
+
+
+@contextmanager
+def _guarded(code: str, field: str, what: str) -> Generator[None]:
+    """Turn whatever the reader throws at damaged data into a refusal."""
+    try:
+        yield
+    except _FAULTS as error:
+        raise Refused(
+            code=code,
+            field=field,
+            found=f"{what} ({type(error).__name__}: {error})",
+            limit="sound DXF data",
+            way_out="Repair or redraw it in CAD and save again.",
+        ) from error
+
+
+def _refuse(what: str, field: str, found: str, limit: str, way_out: str) -> None:
+    raise Refused(code=f"E-DXF-{what}", field=field, found=found, limit=limit, way_out=way_out)

@@ -1,0 +1,132 @@
+"""Shapes drawn in space, and laying them flat on the plane that they were drawn in."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from isomould.arrays import Floats
+from isomould.curves.bezier import Bezier
+from isomould.curves.chains import Stroke
+from isomould.curves.curve import JOINT_GAP, REMOTEST
+from isomould.curves.pieces import Ellipse, Line, Piece, tuples
+from isomould.curves.plane import Plane, project
+from isomould.errors import Note, Refused
+
+OUT_OF_PLANE = 1e-6
+"""How far a curve may leave its plane, mm."""
+
+
+class Shape(NamedTuple):
+    """A line, ellipse or Bézier in space: its points and the numbers that no affine map changes."""
+
+    kind: type[Piece]
+    anchors: Floats
+    """(k, 3) mm: ends; or centre and the tips of two half diameters; or control points."""
+    numbers: tuple[float, ...] = ()
+    """Nothing; or the range of φ; or the weights."""
+
+
+class Traced(NamedTuple):
+    """An entity's shapes in its own direction."""
+
+    name: str
+    shapes: list[Shape]
+    says_closed: bool
+
+
+def anchors(piece: Piece) -> tuple[Floats, tuple[float, ...]]:
+    """Give the anchors (k, 2) and the numbers of a plane piece, as in `Shape`."""
+    match piece:
+        case Line():
+            return np.array([piece.start, piece.end]), ()
+        case Ellipse():
+            centre = np.array(piece.centre)
+            return np.array([centre, centre + piece.major, centre + piece.minor]), (piece.start, piece.end)
+        case Bezier():
+            return np.array(piece.points), piece.weights
+        case _:
+            raise TypeError(piece.kind)
+
+
+def laid_flat(traced: list[Traced], plane: Plane | None, field: str) -> tuple[list[Stroke], tuple[Note, ...]]:
+    """Give the plane coordinates of what was drawn, on a plane or, without one, as the drawing's x and y.
+
+    Lines of length zero are left out with a note.
+
+    Raises
+    ------
+    Refused
+        E-DXF-ENTITY for numbers that are not finite, E-DXF-PLANE for what leaves the plane by more than
+        1e-6 mm, E-DXF-CURVES for a curve that says it is closed and is not.
+    """
+    for one in traced:
+        _refuse_wild(one, field)
+    ground = plane or _ground(traced)
+    strokes = [_stroke(one, ground, plane is None, field) for one in traced]
+    kept = [stroke._replace(pieces=tuple(p for p in stroke.pieces if not _is_dot(p))) for stroke in strokes]
+    gone = sum(len(s.pieces) for s in strokes) - sum(len(s.pieces) for s in kept)
+    text = f"{gone} exactly repeated point(s) left out"
+    left = [stroke for stroke in kept if stroke.pieces]
+    _refuse_nothing(left, field)
+    return left, (Note("W-CURVE-REPEATED", field, text),) if gone else ()
+
+
+def _ground(traced: list[Traced]) -> Plane:
+    """Give the horizontal plane through the first point drawn."""
+    heights = [shape.anchors[0, 2] for one in traced for shape in one.shapes]
+    origin = np.array([0.0, 0.0, heights[0] if heights else 0.0])
+    return Plane(origin, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+
+
+def _stroke(one: Traced, plane: Plane, flat: bool, field: str) -> Stroke:
+    placed = [project(plane, shape.anchors) for shape in one.shapes]
+    away = max((float(distances.max()) for _, distances in placed), default=0.0)
+    if not away <= OUT_OF_PLANE:
+        _refuse_leaving(one.name, away, flat, field)
+    pieces = tuple(_piece(shape, points) for shape, (points, _) in zip(one.shapes, placed, strict=True))
+    _refuse_false_closure(one, pieces, field)
+    return Stroke(one.name, pieces)
+
+
+def _piece(shape: Shape, points: Floats) -> Piece:
+    if shape.kind is Line:
+        return Line(*tuples(points))
+    if shape.kind is Ellipse:
+        half = points[1:] - points[0]
+        return Ellipse(*tuples([points[0], *half]), *shape.numbers)
+    return Bezier(tuples(points), shape.numbers)
+
+
+def _is_dot(piece: Piece) -> bool:
+    return isinstance(piece, Line) and piece.start == piece.end
+
+
+def _refuse_wild(one: Traced, field: str) -> None:
+    numbers = [np.append(shape.anchors.ravel(), shape.numbers) for shape in one.shapes]
+    biggest = float(np.max(np.abs(np.concatenate(numbers)), initial=0.0)) if numbers else 0.0
+    if not biggest < REMOTEST:
+        found, limit = f"{one.name}: a number {biggest:g}", f"finite numbers below {REMOTEST:g} mm"
+        _refuse("ENTITY", field, found, limit, "Redraw it near the origin.")
+
+
+def _refuse_leaving(name: str, away: float, flat: bool, field: str) -> None:
+    found = f"{name} leaves {'the height of the drawing' if flat else 'the plane'} by {away:.6g} mm"
+    way_out = 'Draw it at one height, or set drawn = "world" and give the plane.' if flat else "Check the plane's axes."
+    _refuse("PLANE", f"{field}.drawn", found, f"{OUT_OF_PLANE:g} mm", way_out)
+
+
+def _refuse_false_closure(one: Traced, pieces: tuple[Piece, ...], field: str) -> None:
+    if one.says_closed and pieces:
+        gap = float(np.hypot(*(pieces[-1].point(np.ones(1)) - pieces[0].point(np.zeros(1)))[0]))
+        if gap > JOINT_GAP:
+            found = f"{one.name} says that it is closed, but its ends are {gap:.6g} mm apart"
+            _refuse("CURVES", field, found, f"{JOINT_GAP:g} mm", "Close it in CAD and save again.")
+
+
+def _refuse_nothing(strokes: list[Stroke], field: str) -> None:
+    if not strokes:
+        _refuse("CURVES", field, "only points", "one curve", "Draw a curve on the layer.")
+
+
+def _refuse(what: str, field: str, found: str, limit: str, way_out: str) -> None:
+    raise Refused(code=f"E-DXF-{what}", field=field, found=found, limit=limit, way_out=way_out)
