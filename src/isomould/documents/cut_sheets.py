@@ -1,0 +1,124 @@
+"""Cut drawings of single parts and of nested sheets."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats, round_um
+from isomould.documents.drawing import CutDrawing, Entity, Label, Layer, Polyline, chords, signed_area
+from isomould.documents.stroke_font import text_strokes, text_width
+
+TEXT_HEIGHTS = (20.0, 14.0, 10.0, 7.0, 5.0, 3.5, 2.5, 2.0)
+"""Heights of engraved marks, tallest first (ISO 3098 steps), mm."""
+
+_MARGIN = 0.5
+"""Clear distance of the mark from the outline, in text heights."""
+
+_INFO_HEIGHT = 10.0
+
+_TURNS = (np.array([[1.0, 0.0], [0.0, 1.0]]), np.array([[0.0, 1.0], [-1.0, 0.0]]))
+"""A mark stands level or turned by 90°."""
+
+Placement = tuple[str, str, Floats]
+"""Mark, location and the placed outline (n, 2), mm."""
+
+
+def part_drawing(
+    mark: str,
+    outline: Floats,
+    bulges: Floats | None = None,
+    inner: Sequence[Polyline] = (),
+    note: str = "",
+) -> CutDrawing:
+    """Draw one part in its own frame: contour, inner contours, engraved mark and a line of information.
+
+    Parameters
+    ----------
+    mark : str
+    outline : (n, 2) float, mm
+        Counter-clockwise, first vertex not repeated.
+    bulges : (n,) float, optional
+    inner : sequence of Polyline
+        Closed contours to cut inside, in either direction; CUT_INNER is clockwise by definition.
+    note : str
+        What stands after the mark in the information below the part.
+    """
+    contour = Polyline("CUT", outline, True, bulges)
+    holes = [_directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
+    left, bottom = outline.min(axis=0)
+    info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
+    free = shapely.Polygon(chords(contour), [chords(hole) for hole in holes])
+    return CutDrawing((contour, *holes, *_engraving(mark, free), info))
+
+
+def sheet_drawing(
+    width: float, height: float, placements: Iterable[Placement], scores: Floats | None = None
+) -> CutDrawing:
+    """Draw a nested sheet: stock outline, contours, engraved marks with locations, information.
+
+    Parameters
+    ----------
+    width, height : float, mm
+        Of the stock sheet, lower left corner at the origin.
+    placements : iterable of (mark, location, points)
+        Points (n, 2) of the placed outline; a part that was turned over comes clockwise.
+    scores : (k, 2, 2) float, mm, optional
+        Lines to score, in cutting order: then the contours go to INFO, because nothing is cut.
+    """
+    layer: Layer = "CUT" if scores is None else "INFO"
+    stock = Polyline("SHEET", np.array([[0, 0], [width, 0], [width, height], [0, height]], float), True)
+    lines = [Polyline("SCORE", line, False) for line in ([] if scores is None else scores)]
+    parts = [entity for placement in placements for entity in _placed(layer, *placement)]
+    return CutDrawing((stock, *parts, *lines))
+
+
+def _placed(layer: Layer, mark: str, location: str, points: Floats) -> list[Entity]:
+    contour, text = _directed(points, None, layer), f"{mark} {location}"
+    outline = shapely.Polygon(points)
+    at = outline.representative_point()
+    return [contour, *_engraving(text, outline), _info(text, at.x, at.y, TEXT_HEIGHTS[-1])]
+
+
+def _directed(points: Floats, bulges: Floats | None, layer: Layer) -> Polyline:
+    """Run a closed contour the way its layer asks, from the same first vertex."""
+    contour = Polyline(layer, points, True, bulges)
+    wanted = -1 if layer == "CUT_INNER" else 1
+    return contour if signed_area(contour) * wanted > 0 else _reversed(contour)
+
+
+def _reversed(contour: Polyline) -> Polyline:
+    points = np.roll(contour.points[::-1], 1, axis=0)
+    bulges = None if contour.bulges is None else -contour.bulges[::-1]
+    return Polyline(contour.layer, points, True, bulges)
+
+
+def _info(text: str, x: float, y: float, height: float = _INFO_HEIGHT) -> Label:
+    return Label("INFO", text, (float(x), float(y), 0.0), height)
+
+
+def _engraving(text: str, free: shapely.Polygon) -> list[Polyline]:
+    """Engrave text at the tallest height that fits the free area; nothing when even the lowest does not."""
+    middle = round_um(np.array(_middle(free).coords[0]))
+    lines = ((height, turn) for height in TEXT_HEIGHTS for turn in _TURNS)
+    found = next((line for line in lines if free.contains(_box(text, middle, *line))), None)
+    return [] if found is None else _strokes(text, middle, *found)
+
+
+def _middle(free: shapely.Polygon) -> shapely.Point:
+    return free.centroid if free.contains(free.centroid) else free.representative_point()
+
+
+def _box(text: str, middle: Floats, height: float, turn: Floats) -> shapely.Polygon:
+    """Box of a line of text about its middle, with the margin around it."""
+    half = np.abs((_size(text, height) / 2 + _MARGIN * height) @ turn)
+    return shapely.box(*(middle - half), *(middle + half))
+
+
+def _size(text: str, height: float) -> Floats:
+    return np.array([text_width(text, height), height])
+
+
+def _strokes(text: str, middle: Floats, height: float, turn: Floats) -> list[Polyline]:
+    centred = (stroke - _size(text, height) / 2 for stroke in text_strokes(text, height))
+    return [Polyline("ENGRAVE", round_um(stroke @ turn + middle), closed=False) for stroke in centred]

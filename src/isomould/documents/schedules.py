@@ -1,0 +1,259 @@
+"""The schedules as tables: one row per class, one row per instance (deliverables, Folder).
+
+Values come from the parts as they are cut: lengths, areas and masses from rounded outlines and from solids.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Floats, Ints
+from isomould.documents.adjacency import Neighbours, find_neighbours
+from isomould.documents.numbers import format_number
+from isomould.documents.table import Table, make_table
+from isomould.form.mesh import Family, NodeKind
+from isomould.parts.kit import Kit, KitSettings
+from isomould.parts.members import TURNED
+from isomould.parts.outline import area, sides
+from isomould.parts.settings import PanelSettings
+from isomould.parts.solid import Solid
+
+Columns = Mapping[str, Sequence[object]]
+
+_KG_PER_MM3 = 1e-9
+"""Times density in kg/m³."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Where a piece was nested: sheet, position of the part's origin (mm), rotation, turned over or not."""
+
+    sheet: str
+    x: float
+    y: float
+    rotation_deg: int
+    turned_over: bool
+
+
+def part_tables(
+    kit: Kit,
+    settings: KitSettings,
+    solids: tuple[Solid, ...],
+    placed: dict[str, Placed],
+    bars: dict[str, tuple[str, float]],
+) -> tuple[Table, ...]:
+    """Give the tables of nodes, members and panels, classes and instances.
+
+    Parameters
+    ----------
+    kit, settings, solids
+        The parts, what was asked of them, and a solid per node class.
+    placed
+        Sheet and place of every panel location.
+    bars
+        Bar and position (mm) of every member location; empty without bars in stock.
+    """
+    around = find_neighbours(kit.mesh, kit.nodes.arm_rows, kit.arms, kit.panels.edges)
+    return (
+        make_table("nodes", _nodes(kit, settings, solids)),
+        make_table("node_instances", _node_instances(kit, around)),
+        make_table("members", _members(kit, settings)),
+        make_table("member_instances", _member_instances(kit, around, bars)),
+        make_table("panels", _panels(kit, settings.panels)),
+        make_table("panel_instances", _panel_instances(kit, placed)),
+    )
+
+
+def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Columns:
+    nodes, drum, asked = kit.nodes, kit.drum, settings.nodes
+    count = len(nodes.marks)
+    volume = np.array([solid.volume for solid in solids])
+    bar = asked.diameter_step * np.ceil(np.round((drum.diameter + asked.bar_allowance) / asked.diameter_step, 9))
+    blank = np.round(drum.height + asked.facing_allowance, 6)
+    deviation = _worst(nodes.deviation, nodes.classes.of, count)
+    slots = [len(arms.azimuth) for arms in nodes.arms]
+    return {
+        "mark": list(nodes.marks),
+        "quantity": nodes.classes.quantity.tolist(),
+        "kind": [NodeKind(kind).word for kind in nodes.kind],
+        "valence": slots,
+        "handed": list(nodes.handed),
+        **_arm_columns(kit, settings.members.section.name),
+        "drum_diameter_mm": [drum.diameter] * count,
+        "drum_height_mm": drum.height.tolist(),
+        "mass_kg": (volume * asked.density * _KG_PER_MM3).tolist(),
+        "volume_cm3": (volume / 1e3).tolist(),
+        "coated_area_m2": [solid.surface / 1e6 for solid in solids],
+        "bar_diameter_mm": [float(bar)] * count,
+        "blank_length_mm": blank.tolist(),
+        "removed_volume_cm3": ((np.pi / 4 * bar**2 * blank - volume) / 1e3).tolist(),
+        "slots": slots,
+        "facets": [0] * count,
+        "holes": [int(drum.bore > 0)] * count,
+        "weld_length_mm": [2.0 * height * arms for height, arms in zip(drum.height, slots, strict=True)],
+        "max_deviation_mm": (deviation * drum.radius).tolist(),
+        "max_deviation_deg": np.degrees(deviation).tolist(),
+        "solid_file": [f"nodes/{mark}.3mf" for mark in nodes.marks],
+        "drawing_file": [""] * count,
+    }
+
+
+def _arm_columns(kit: Kit, section: str) -> Columns:
+    columns: dict[str, list[object]] = {}
+    for k in range(max(len(arms.azimuth) for arms in kit.nodes.arms)):
+        there = [arms if k < len(arms.azimuth) else None for arms in kit.nodes.arms]
+        columns[f"azimuth_{k + 1}_deg"] = [arms and float(np.degrees(arms.azimuth[k])) for arms in there]
+        columns[f"elevation_{k + 1}_deg"] = [arms and float(np.degrees(arms.elevation[k])) for arms in there]
+        columns[f"family_{k + 1}"] = [arms and Family(arms.family[k]).word for arms in there]
+        columns[f"section_{k + 1}"] = [arms and section for arms in there]
+    return columns
+
+
+def _worst(values: Floats, of: Ints, count: int) -> Floats:
+    """Largest value (k,) of the instances of every class."""
+    worst = np.zeros(count)
+    np.maximum.at(worst, of, values)
+    return worst
+
+
+def _node_instances(kit: Kit, around: Neighbours) -> Columns:
+    mesh, nodes = kit.mesh, kit.nodes
+    members, panels = np.array(kit.members.locations), np.array(kit.panels.locations)
+    return {
+        "location": list(nodes.locations),
+        "mark": _marks(nodes.marks, nodes.classes.of),
+        "i": mesh.node_ij[:, 0].tolist(),
+        "j": mesh.node_ij[:, 1].tolist(),
+        **_vector("{}_mm", mesh.nodes),
+        **_vector("axis_{}", mesh.axes),
+        **_vector("ref_{}", nodes.reference),
+        "mismatch_mm": kit.mismatch.tolist(),
+        "torsion_deg": np.degrees(kit.torsion).tolist(),
+        "members": _lists(members, around.node_edges),
+        "panels": _lists(panels, around.node_faces, kept=around.node_edges >= 0),
+        "deviation_mm": (nodes.deviation * kit.drum.radius).tolist(),
+        "deviation_deg": np.degrees(nodes.deviation).tolist(),
+    }
+
+
+def _vector(name: str, values: Floats) -> Columns:
+    return {name.format(axis): values[:, k].tolist() for k, axis in enumerate("xyz")}
+
+
+def _marks(marks: tuple[str, ...], of: Ints) -> list[object]:
+    return [marks[k] for k in of]
+
+
+def _lists(names: np.ndarray, rows: Ints, kept: np.ndarray | None = None) -> list[object]:
+    """Names joined by ";" per row (n, v) of numbers; −1 stands for nothing, and keeps its place where asked to."""
+    kept = rows >= 0 if kept is None else kept
+    words = np.where(rows >= 0, names[rows], "").tolist()
+    return [
+        ";".join(w for w, keep in zip(row, keeps, strict=True) if keep)
+        for row, keeps in zip(words, kept.tolist(), strict=True)
+    ]
+
+
+def _members(kit: Kit, settings: KitSettings) -> Columns:
+    members, asked = kit.members, settings.members
+    shapes, thickness = members.shapes, asked.section.thickness
+    return {
+        "mark": list(members.marks),
+        "quantity": members.classes.quantity.tolist(),
+        "family": [Family(family).word for family in members.family],
+        "section": [asked.section.name] * len(shapes),
+        "grade": [asked.grade] * len(shapes),
+        "system_length_mm": [shape.system_length for shape in shapes],
+        "top_length_mm": [shape.top_length for shape in shapes],
+        "bottom_length_mm": [shape.bottom_length for shape in shapes],
+        "cut_length_mm": [shape.cut_length for shape in shapes],
+        "end_angle_start_deg": [float(np.degrees(shape.end_angle[0])) for shape in shapes],
+        "end_angle_end_deg": [float(np.degrees(shape.end_angle[1])) for shape in shapes],
+        "set_back_start_mm": [shape.set_back[0] for shape in shapes],
+        "set_back_end_mm": [shape.set_back[1] for shape in shapes],
+        "mass_kg": [shape.area * thickness * asked.density * _KG_PER_MM3 for shape in shapes],
+        "coated_area_m2": [(2 * shape.area + shape.perimeter * thickness) / 1e6 for shape in shapes],
+        "files": [f"members/{mark}.dxf" for mark in members.marks],
+    }
+
+
+def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, float]]) -> Columns:
+    mesh, members = kit.mesh, kit.members
+    nodes, panels = np.array(kit.nodes.locations), np.array(kit.panels.locations)
+    left, right = (np.where(side >= 0, panels[side], "").tolist() for side in around.edge_faces.T)
+    return {
+        "location": list(members.locations),
+        "mark": _marks(members.marks, members.classes.of),
+        "turned": [TURNED[variant] for variant in members.classes.variant],
+        "node_start": nodes[mesh.edges[:, 0]].tolist(),
+        "node_end": nodes[mesh.edges[:, 1]].tolist(),
+        "panel_left": left,
+        "panel_right": right,
+        "bar": [bars[where][0] if where in bars else "" for where in members.locations],
+        "position_mm": [bars[where][1] if where in bars else None for where in members.locations],
+        "deviation_mm": members.deviation.tolist(),
+    }
+
+
+def _panels(kit: Kit, settings: PanelSettings) -> Columns:
+    panels = kit.panels
+    lengths = np.array([sides(outline) for outline in panels.outlines])
+    size = np.array([np.ptp(outline, axis=0) for outline in panels.outlines])
+    areas = np.array([area(outline) for outline in panels.outlines]) / 1e6
+    diagonals = np.array([np.linalg.norm(o[[2, 3]] - o[[0, 1]], axis=1) for o in panels.outlines])
+    angles = np.degrees(np.array([_angles(outline) for outline in panels.outlines]))
+    return {
+        "mark": list(panels.marks),
+        "quantity": panels.classes.quantity.tolist(),
+        **{f"side_{side}_mm": lengths[:, k].tolist() for k, side in enumerate("abcd")},
+        **{f"diagonal_{k + 1}_mm": diagonals[:, k].tolist() for k in range(2)},
+        "height_mm": [float(outline[2, 1]) for outline in panels.outlines],
+        **{f"angle_{k + 1}_deg": angles[:, k].tolist() for k in range(4)},
+        "outline": [""] * len(panels.marks),
+        "area_m2": areas.tolist(),
+        "charged_area_m2": _charged(size, settings).tolist(),
+        "box_width_mm": size[:, 0].tolist(),
+        "box_height_mm": size[:, 1].tolist(),
+        "mass_kg": (areas * settings.thickness / 1e3 * settings.density).tolist(),
+        "handed": list(panels.handed),
+        "files": [f"panels/{mark}.dxf" for mark in panels.marks],
+    }
+
+
+def _angles(outline: Floats) -> Floats:
+    """Inner angles (n,) rad of an outline, at its vertices in order."""
+    ahead, behind = np.roll(outline, -1, axis=0) - outline, np.roll(outline, 1, axis=0) - outline
+    cross = ahead[:, 0] * behind[:, 1] - ahead[:, 1] * behind[:, 0]
+    return np.arctan2(cross, (ahead * behind).sum(axis=1))
+
+
+def _charged(size: Floats, settings: PanelSettings) -> Floats:
+    """Charged area (k,) m²: each side of the box rounded up to `glass_round`, at least `glass_min_area`."""
+    step = settings.glass_round
+    boxes = step * np.ceil(np.round(size / step, 9))
+    return np.maximum(boxes.prod(axis=1) / 1e6, settings.glass_min_area)
+
+
+def _panel_instances(kit: Kit, placed: dict[str, Placed]) -> Columns:
+    mesh, panels = kit.mesh, kit.panels
+    nodes, members = np.array(kit.nodes.locations), np.array(kit.members.locations)
+    places = [placed.get(where) for where in panels.locations]
+    return {
+        "location": list(panels.locations),
+        "mark": _marks(panels.marks, panels.classes.of),
+        "i": mesh.face_ij[:, 0].tolist(),
+        "j": mesh.face_ij[:, 1].tolist(),
+        "first_corner": (panels.first_corner + 1).tolist(),
+        "nodes": _lists(nodes, mesh.quads),
+        "members": _lists(members, panels.edges),
+        "packers_mm": [";".join(format_number(side, 3) for side in row) for row in panels.packers],
+        "slope_deg": np.degrees(panels.slope).tolist(),
+        "flatness_mm": panels.flatness.tolist(),
+        "sheet": [place.sheet if place else "" for place in places],
+        "x_mm": [place.x if place else None for place in places],
+        "y_mm": [place.y if place else None for place in places],
+        "rotation_deg": [float(place.rotation_deg) if place else None for place in places],
+        "turned_over": [bool(place and place.turned_over) for place in places],
+        "deviation_mm": panels.deviation.tolist(),
+    }

@@ -1,0 +1,67 @@
+"""The tables of sheets and bars (deliverables, Folder)."""
+
+import numpy as np
+
+from isomould.arrays import Floats
+from isomould.documents.table import Table, make_table
+from isomould.nesting.layout import BarLayout, Layout, Placement, Sheet
+from isomould.nesting.settings import StockSettings
+
+Columns = dict[str, list[object]]
+
+
+def sheet_table(layout: Layout, stock: StockSettings) -> Table:
+    """Give one row per sheet: parts, areas, cut lengths, the largest offcut along an edge, price."""
+    price = {sheet.name: sheet.price for sheet in stock.sheets}
+    on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
+    for placement in layout.placements:
+        on[placement.sheet].append(placement)
+    area = [sum(_area(p.points) for p in on[sheet.id]) for sheet in layout.sheets]
+    offcut = [_offcut(sheet, on[sheet.id], stock) for sheet in layout.sheets]
+    data: Columns = {
+        "sheet": [sheet.id for sheet in layout.sheets],
+        "stock": [sheet.stock for sheet in layout.sheets],
+        "parts": [len(on[sheet.id]) for sheet in layout.sheets],
+        "part_area_m2": [value / 1e6 for value in area],
+        "yield_percent": [100 * a / (s.width * s.height) for a, s in zip(area, layout.sheets, strict=True)],
+        "cut_length_mm": [sum(_perimeter(p.points) for p in on[sheet.id]) for sheet in layout.sheets],
+        "cuts": [len(on[sheet.id]) for sheet in layout.sheets],
+        "offcut_width_mm": [width for width, _ in offcut],
+        "offcut_height_mm": [height for _, height in offcut],
+        "price": [price.get(sheet.stock) for sheet in layout.sheets],
+        "file": [f"sheets/{sheet.id}.dxf" for sheet in layout.sheets],
+    }
+    return make_table("sheets", data)
+
+
+def bar_table(layout: BarLayout, stock: StockSettings) -> Table:
+    """Give one row per bar; used is what pieces and kerfs take."""
+    price = {(bar.section, bar.length): bar.price for bar in stock.bars}
+    data: Columns = {
+        "bar": [bar.id for bar in layout.bars],
+        "stock": [f"{bar.section} x {bar.length:g}" for bar in layout.bars],
+        "pieces": [len(bar.cuts) for bar in layout.bars],
+        "used_mm": [bar.length - bar.rest for bar in layout.bars],
+        "offcut_mm": [bar.rest for bar in layout.bars],
+        "price": [price[bar.section, bar.length] for bar in layout.bars],
+    }
+    return make_table("bars", data)
+
+
+def _area(points: Floats) -> float:
+    x, y = (points - points[0]).T
+    return abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2
+
+
+def _perimeter(points: Floats) -> float:
+    return float(np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).sum())
+
+
+def _offcut(sheet: Sheet, placements: list[Placement], stock: StockSettings) -> tuple[float, float]:
+    """Width and height (mm) of the larger rectangle left above or beside all parts, a gap away from them."""
+    reach = np.concatenate([p.points for p in placements]).max(axis=0) + stock.gap
+    width, height = sheet.width - 2 * stock.trim, sheet.height - 2 * stock.trim
+    above = (width, max(0.0, sheet.height - stock.trim - reach[1]))
+    beside = (max(0.0, sheet.width - stock.trim - reach[0]), height)
+    best = max(above, beside, key=lambda box: box[0] * box[1])
+    return best if min(best) > 0 else (0.0, 0.0)
