@@ -1,0 +1,1 @@
+"""Bytes: one module per file format, and the folder that is published by one rename."""
