@@ -1,0 +1,271 @@
+"""Proves a layout of sheets in float64, apart from the search that made it."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats, Ints
+from isomould.nesting.layout import BLANK, CutTree, Layout, Part, Placement, Sheet
+from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
+
+TOLERANCE = 1e-6
+"""mm; by so much may a gap fall short or a vertex stand out of its sheet."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What is wrong with a layout, and where."""
+
+    code: str
+    where: str
+    found: str
+    limit: str
+
+
+def check_layout(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> tuple[Finding, ...]:
+    """Prove that a layout cuts the parts as asked from the stock.
+
+    Returns
+    -------
+    tuple of Finding
+        Empty if the layout is proved. Gaps and edges hold to 1e-6 mm; everything else is exact.
+    """
+    for checks in _STAGES:
+        findings = tuple(finding for check in checks for finding in check(parts, stock, layout))
+        if findings:
+            return findings
+    return ()
+
+
+def _check_names(parts: Sequence[Part], _: StockSettings, layout: Layout) -> Iterator[Finding]:
+    yield from _repeated("N-NAME-01", "part", [part.id for part in parts])
+    yield from _repeated("N-NAME-02", "sheet", [sheet.id for sheet in layout.sheets])
+    placed = [*(item.id for item in layout.placements), *(item.id for item in layout.unplaced)]
+    yield from _unknown("N-NAME-03", "part", placed, [part.id for part in parts])
+    used = [item.sheet for item in layout.placements]
+    yield from _unknown("N-NAME-04", "sheet", used, [sheet.id for sheet in layout.sheets])
+    yield from _unknown("N-NAME-05", "sheet with nothing on it", [sheet.id for sheet in layout.sheets], used)
+
+
+def _repeated(code: str, noun: str, names: Iterable[object]) -> Iterator[Finding]:
+    for name, count in Counter(names).items():
+        if count > 1:
+            yield Finding(code, f"{noun} {name}", f"{count} times", "once")
+
+
+def _unknown(code: str, noun: str, names: Iterable[object], known: Iterable[object]) -> Iterator[Finding]:
+    rack = set(known)
+    for name in Counter(names):
+        if name not in rack:
+            yield Finding(code, f"{noun} {name}", "unknown", "a name in the list")
+
+
+def _check_quantities(parts: Sequence[Part], _: StockSettings, layout: Layout) -> Iterator[Finding]:
+    placed = Counter(item.id for item in layout.placements)
+    listed = Counter(item.id for item in layout.unplaced)
+    for part in parts:
+        total = placed[part.id] + listed[part.id]
+        if total != part.quantity:
+            found = f"{placed[part.id]} placed, {listed[part.id]} unplaced"
+            yield Finding("N-QUANTITY-01", f"part {part.id}", found, f"{part.quantity} in all")
+    if layout.status == ("complete" if layout.unplaced else "incomplete"):
+        found = f"{layout.status} with {len(layout.unplaced)} unplaced"
+        yield Finding("N-QUANTITY-02", "status", found, "complete if and only if all is placed")
+
+
+def _check_locations(parts: Sequence[Part], _: StockSettings, layout: Layout) -> Iterator[Finding]:
+    pieces = [*layout.placements, *layout.unplaced]
+    found = Counter((piece.id, piece.location) for piece in pieces if piece.location is not None)
+    asked = Counter((part.id, location) for part in parts for location in part.locations)
+    for (mark, location), count in sorted(((found - asked) + (asked - found)).items(), key=str):
+        yield Finding("N-LOCATION-01", f"part {mark}", f"location {location} {count} wrong", "each once")
+
+
+def _check_stock(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    rack = {sheet.name: sheet for sheet in stock.sheets}
+    for sheet in layout.sheets:
+        if sheet.stock == BLANK and not rack:
+            yield from _check_blank(stock, sheet)
+        elif sheet.stock not in rack or not _same_size(sheet, rack[sheet.stock]):
+            found = f"{sheet.stock} {sheet.width:g} x {sheet.height:g} mm"
+            yield Finding("N-STOCK-01", f"sheet {sheet.id}", found, "a sheet in stock")
+    used = Counter(sheet.stock for sheet in layout.sheets)
+    for kind in stock.sheets:
+        if kind.quantity is not None and used[kind.name] > kind.quantity:
+            yield Finding("N-STOCK-02", f"stock {kind.name}", f"{used[kind.name]} used", f"{kind.quantity}")
+
+
+def _check_blank(stock: StockSettings, sheet: Sheet) -> Iterator[Finding]:
+    if sheet.width > stock.max_blank_length + TOLERANCE:
+        yield Finding("N-STOCK-03", f"blank {sheet.id}", f"{sheet.width} mm", f"{stock.max_blank_length} mm")
+
+
+def _same_size(sheet: Sheet, kind: SheetStock) -> bool:
+    return (sheet.width, sheet.height) == (kind.width, kind.height)
+
+
+def _check_transforms(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    outlines = {part.id: _micrometres(part.outline) for part in parts}
+    rack = {sheet.name: sheet for sheet in stock.sheets}
+    kinds = {sheet.id: rack.get(sheet.stock) for sheet in layout.sheets}
+    for item in layout.placements:
+        yield from _check_transform(item, outlines[item.id])
+        yield from _check_rotation(item, stock, kinds[item.sheet])
+
+
+def _check_transform(item: Placement, outline: Ints) -> Iterator[Finding]:
+    where = f"part {item.id} on {item.sheet}"
+    if not np.isfinite(item.points).all() or not np.array_equal(item.points, np.rint(item.points * 1e3) / 1e3):
+        yield Finding("N-PLACE-01", where, "a vertex between two micrometres", "multiples of 0.001 mm")
+        return
+    moved = _micrometres(item.points)
+    turned = _turn(outline, item.rotation_deg, item.turned_over)
+    if moved.shape != turned.shape or np.ptp(moved - turned, axis=0).any():
+        found = f"not the outline turned by {item.rotation_deg} degrees"
+        yield Finding("N-PLACE-02", where, found, "a rigid movement of the part")
+
+
+def _check_rotation(item: Placement, stock: StockSettings, kind: SheetStock | None) -> Iterator[Finding]:
+    allowed = allowed_rotations_deg(stock, kind)
+    if item.rotation_deg not in allowed:
+        where = f"part {item.id} on {item.sheet}"
+        yield Finding("N-PLACE-03", where, f"{item.rotation_deg} degrees", f"one of {allowed} degrees")
+    if item.turned_over and not stock.turn_over:
+        yield Finding("N-PLACE-04", f"part {item.id} on {item.sheet}", "turned over", "not turned over")
+
+
+def _turn(outline: Ints, rotation_deg: int, turned_over: bool) -> Ints:
+    cos, sin = {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1)}.get(rotation_deg, (0, 0))
+    mirror = -1 if turned_over else 1
+    return outline @ np.array([[mirror * cos, mirror * sin], [-sin, cos]])
+
+
+def _micrometres(points: Floats) -> Ints:
+    return np.rint(points * 1e3).astype(np.int64)
+
+
+def _check_edges(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    sheets = {sheet.id: sheet for sheet in layout.sheets}
+    for item in layout.placements:
+        sheet = sheets[item.sheet]
+        size = np.array([sheet.width, sheet.height])
+        inside = min(float(item.points.min()), float((size - item.points).min()))
+        if not inside >= stock.trim - TOLERANCE:
+            where = f"part {item.id} on {item.sheet}"
+            yield Finding("N-EDGE-01", where, f"{inside:.6f} mm from the edge", f"{stock.trim:g} mm")
+
+
+def _check_gaps(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    for items in _by_sheet(layout):
+        pieces = np.array([shapely.Polygon(item.points) for item in items])
+        for one, other, gap in _close_pairs(pieces, stock.gap):
+            where = f"parts {items[one].id} and {items[other].id} on {items[one].sheet}"
+            yield Finding("N-GAP-01", where, f"{gap:.6f} mm", f"{stock.gap:g} mm")
+
+
+def _by_sheet(layout: Layout) -> Iterator[list[Placement]]:
+    items = sorted(layout.placements, key=lambda item: item.sheet)
+    for _, group in groupby(items, key=lambda item: item.sheet):
+        yield list(group)
+
+
+def _close_pairs(pieces: Any, gap: float) -> Iterator[tuple[int, int, float]]:
+    """Give the pairs that stand closer than the gap; overlap is shown as -1."""
+    one, other = shapely.STRtree(pieces).query(pieces, predicate="dwithin", distance=max(gap - TOLERANCE, 0.0))
+    one, other = one[one < other], other[one < other]
+    distance = shapely.distance(pieces[one], pieces[other])
+    shrunk = shapely.buffer(pieces[one], -TOLERANCE, join_style="mitre")
+    overlap = (distance == 0) & shapely.intersects(shrunk, pieces[other])
+    short = overlap | (distance < gap - TOLERANCE)
+    yield from zip(one[short], other[short], np.where(overlap, -1.0, distance)[short], strict=True)
+
+
+def _check_areas(_: Sequence[Part], __: StockSettings, layout: Layout) -> Iterator[Finding]:
+    sheet_area = sum(sheet.width * sheet.height for sheet in layout.sheets)
+    part_area = sum(shapely.Polygon(item.points).area for item in layout.placements)
+    percent = 100 * part_area / sheet_area if sheet_area else 0.0
+    if abs(percent - layout.yield_percent) > 1e-9 * 100:
+        yield Finding("N-AREA-01", "yield", f"{layout.yield_percent!r} %", f"{percent!r} %")
+    if layout.bound > len(layout.sheets):
+        yield Finding("N-AREA-02", "bound", f"{layout.bound}", f"at most {len(layout.sheets)} sheets used")
+    largest = max((sheet.width * sheet.height for sheet in layout.sheets), default=0.0)
+    if part_area > len(layout.sheets) * largest * (1 + 1e-12):
+        yield Finding("N-AREA-03", "part area", f"{part_area:g} mm2", f"{len(layout.sheets)} sheets")
+
+
+def _check_cuts(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    if stock.guillotine and layout.sheets and not layout.cut_trees:
+        yield Finding("N-CUT-01", "cut trees", "none", "one per sheet: the stock is cut by guillotine")
+    if not layout.cut_trees:
+        return
+    placed = {sheet: set[int]() for sheet in layout.cut_trees}
+    for index, item in enumerate(layout.placements):
+        placed.setdefault(item.sheet, set()).add(index)
+    for sheet, indices in placed.items():
+        yield from _check_tree(sheet, layout.cut_trees.get(sheet, {}), indices, stock, layout)
+
+
+def _check_tree(
+    sheet: str, tree: CutTree, indices: set[int], stock: StockSettings, layout: Layout
+) -> Iterator[Finding]:
+    freed = list(_freed(tree))
+    if not _well_formed(tree):
+        yield Finding("N-CUT-04", f"sheet {sheet}", "lines and pieces do not match", "one piece more than lines")
+        return
+    if sorted(freed) != sorted(indices):
+        yield Finding("N-CUT-02", f"sheet {sheet}", f"cuts free {sorted(freed)}", f"placements {sorted(indices)}")
+        return
+    for line, left, right in _cuts(tree):
+        clear = min(_clearance(line, left, layout, 1.0), _clearance(line, right, layout, -1.0))
+        if not clear >= stock.kerf / 2 - TOLERANCE:
+            where = f"sheet {sheet}, cut {line.tolist()}"
+            yield Finding("N-CUT-03", where, f"{clear:.6f} mm from a part", f"half the kerf, {stock.kerf / 2:g} mm")
+
+
+def _well_formed(tree: CutTree) -> bool:
+    pieces = tree.get("pieces", [])
+    matched = len(pieces) == len(tree["lines"]) + 1 if "lines" in tree else not pieces
+    return matched and all(_well_formed(piece) for piece in pieces)
+
+
+def _freed(tree: CutTree) -> Iterator[int]:
+    if "placement" in tree:
+        yield tree["placement"]
+    for piece in tree.get("pieces", []):
+        yield from _freed(piece)
+
+
+def _cuts(tree: CutTree) -> Iterator[tuple[Floats, list[int], list[int]]]:
+    """Replay the cuts. One through a convex piece goes from edge to edge: only the sides are to check."""
+    pieces = tree.get("pieces", [])
+    freed = [list(_freed(piece)) for piece in pieces]
+    for k, line in enumerate(tree.get("lines", [])):
+        yield np.array(line, dtype=np.float64), _joined(freed[: k + 1]), _joined(freed[k + 1 :])
+    for piece in pieces:
+        yield from _cuts(piece)
+
+
+def _joined(lists: Iterable[list[int]]) -> list[int]:
+    return [index for indices in lists for index in indices]
+
+
+def _clearance(line: Floats, indices: list[int], layout: Layout, side: float) -> float:
+    if not indices:
+        return np.inf
+    points = np.vstack([layout.placements[index].points for index in indices])
+    along = line[1] - line[0]
+    across = np.array([-along[1], along[0]]) / np.hypot(*along)
+    return float((side * ((points - line[0]) @ across)).min())
+
+
+_STAGES = (
+    (_check_names,),
+    (_check_transforms,),
+    (_check_quantities, _check_locations, _check_stock, _check_edges, _check_gaps, _check_areas, _check_cuts),
+)
+"""Later stages may take for granted what the earlier ones have proved."""

@@ -1,0 +1,78 @@
+"""Layouts as JSON: `nesting.json` of a delivered folder, and what `isomould nest` writes."""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from isomould.arrays import read_only
+from isomould.errors import Refused
+from isomould.nesting.layout import Layout, Placement, Sheet, Unplaced
+
+SCHEMA = 1
+
+
+def layout_to_json(layout: Layout) -> str:
+    """Write a layout; numbers as short as they read back exactly."""
+    table = {
+        "schema": SCHEMA,
+        "status": layout.status,
+        "reproducible": layout.reproducible,
+        "sheets": [vars(sheet) for sheet in layout.sheets],
+        "bound": layout.bound,
+        "bound_kind": layout.bound_kind,
+        "gap_to_bound": layout.gap_to_bound,
+        "yield_percent": layout.yield_percent,
+        "placements": [_placement(item) for item in layout.placements],
+        "unplaced": [_unplaced(item) for item in layout.unplaced],
+        "cut_tree": layout.cut_trees or None,
+    }
+    return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _placement(item: Placement) -> dict[str, Any]:
+    return {**vars(item), "points": item.points.tolist()}
+
+
+def _unplaced(item: Unplaced) -> dict[str, Any]:
+    return {**vars(item), "needs": list(item.needs)}
+
+
+def layout_from_json(text: str) -> Layout:
+    """Read a layout back.
+
+    Raises
+    ------
+    Refused
+        If the text is not a layout of this schema.
+    """
+    try:
+        return _layout(json.loads(text))
+    except (ValueError, KeyError, TypeError, AttributeError) as fault:
+        found = f"{type(fault).__name__}: {fault}"
+        raise Refused("E-NEST-12", "layout", found, "a layout of schema 1", "Nest the parts again.") from fault
+
+
+def _layout(table: dict[str, Any]) -> Layout:
+    if table["schema"] != SCHEMA:
+        message = f"schema {table['schema']!r}"
+        raise ValueError(message)
+    return Layout(
+        sheets=tuple(Sheet(**sheet) for sheet in table["sheets"]),
+        placements=tuple(_read_placement(item) for item in table["placements"]),
+        unplaced=tuple(_read_unplaced(item) for item in table["unplaced"]),
+        cut_trees=table["cut_tree"] or {},
+        **{key: table[key] for key in ("bound", "bound_kind", "yield_percent", "status", "reproducible")},
+    )
+
+
+def _read_placement(item: dict[str, Any]) -> Placement:
+    points = np.array(item["points"], dtype=np.float64).reshape(-1, 2)
+    values: dict[str, Any] = {**item, "points": read_only(points)}
+    return Placement(**values)
+
+
+def _read_unplaced(item: dict[str, Any]) -> Unplaced:
+    width, height = item["needs"]
+    values: dict[str, Any] = {**item, "needs": (width, height)}
+    return Unplaced(**values)

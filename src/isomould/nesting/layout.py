@@ -1,0 +1,149 @@
+"""Parts and members to nest, and the layouts that place them: the values of this room."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from isomould.arrays import Floats
+
+Id = int | str
+"""The name of a part: the mark in the pipeline, whatever the file says in a part list of others."""
+
+Status = Literal["complete", "interrupted", "incomplete"]
+BoundKind = Literal["area", "lp"]
+CutTree = dict[str, Any]
+"""Guillotine cuts of a piece: `{"lines": [[[x, y], [x, y]], ...], "pieces": [tree, ...]}`, in cutting order.
+
+Line k has pieces 0 to k at its left, looking from its first point to its second, and the others at its
+right. An offcut is `{}`, a part `{"placement": index}`. The trim is cut off first.
+"""
+
+BLANK = "blank"
+"""Stock name of blanks to order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One class of parts.
+
+    Attributes
+    ----------
+    outline : (n, 2) float, mm
+        Simple polygon, vertices multiples of 0.001.
+    locations
+        One per piece, or none at all.
+    """
+
+    id: Id
+    outline: Floats
+    quantity: int = 1
+    row: Id | None = None
+    locations: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A sheet taken from stock, or a blank to order; trim included. Lengths in mm."""
+
+    id: str
+    stock: str
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """One piece on its sheet; `points` (n, 2) float, mm, in the order of the part's outline."""
+
+    id: Id
+    location: str | None
+    sheet: str
+    points: Floats
+    rotation_deg: int
+    turned_over: bool = False
+
+
+@dataclass(frozen=True)
+class Unplaced:
+    """One piece without a place, and the room that it needs: width and height in mm, trim excluded."""
+
+    id: Id
+    reason: str
+    needs: tuple[float, float]
+    location: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Sheets with their placements, and a lower bound for the number of sheets.
+
+    `cut_trees` names for every sheet id the guillotine cuts in order; empty if the layout has none.
+    """
+
+    sheets: tuple[Sheet, ...]
+    placements: tuple[Placement, ...]
+    unplaced: tuple[Unplaced, ...]
+    bound: int
+    bound_kind: BoundKind
+    yield_percent: float
+    cut_trees: dict[str, CutTree]
+    status: Status = "complete"
+    reproducible: bool = True
+
+    @property
+    def gap_to_bound(self) -> int:
+        """Sheets above the lower bound."""
+        return len(self.sheets) - self.bound
+
+
+@dataclass(frozen=True)
+class Member:
+    """One class of members of one section; `length` in mm, `locations` one per piece or none."""
+
+    id: Id
+    section: str
+    length: float
+    quantity: int = 1
+    locations: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Cut:
+    """One piece of a bar; `start` is its distance in mm from the bar's left end."""
+
+    id: Id
+    location: str | None
+    start: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A stock bar with its pieces, left to right; `rest` is the offcut in mm, end trims excluded."""
+
+    id: str
+    section: str
+    length: float
+    cuts: tuple[Cut, ...]
+    rest: float
+
+
+@dataclass(frozen=True)
+class BarLayout:
+    """Bars of every section; `bounds` is the lower bound for the number of bars of each section."""
+
+    bars: tuple[Bar, ...]
+    unplaced: tuple[Unplaced, ...]
+    bounds: dict[str, int]
+    bound_kind: BoundKind
+    status: Status = "complete"
+    reproducible: bool = True
+
+    @property
+    def bound(self) -> int:
+        """Lower bound for the number of bars."""
+        return sum(self.bounds.values())
+
+    @property
+    def gap_to_bound(self) -> int:
+        """Bars above the lower bound."""
+        return len(self.bars) - self.bound

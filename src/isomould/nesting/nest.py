@@ -1,0 +1,108 @@
+"""Panels on sheets and in blanks. Every layout that leaves this room has been proved by `checker`."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from isomould.errors import Refused
+from isomould.nesting.assembly import Filling, fill_blanks, fill_stock, make_layout
+from isomould.nesting.bound import area_bound, dilated_area, grown_rectangle, sheets_for
+from isomould.nesting.checker import check_layout
+from isomould.nesting.layout import Id, Layout, Part
+from isomould.nesting.rack import (
+    blank_length,
+    box,
+    make_blank_rack,
+    make_rack,
+    piece_counts,
+    refuse_oversize,
+    sort_classes,
+)
+from isomould.nesting.search import Search, fill_sheets, search
+from isomould.nesting.settings import StockSettings
+from isomould.nesting.shapes import micrometres
+
+
+def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None = None) -> Layout:
+    """Nest parts on the stock sheets.
+
+    Returns
+    -------
+    Layout
+        Proved by `check_layout`. Pieces for which no sheet is left in stock are listed as unplaced;
+        `reproducible` is False if the task was told to stop.
+
+    Raises
+    ------
+    Refused
+        If a part fits no sheet.
+    """
+    refuse_oversize(parts, stock)
+    classes = sort_classes(parts)
+    plans, ended = search(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else ([], True)
+    filling = fill_stock(plans, classes, stock)
+    placed = [item[1].points / 1e3 for sheet in filling.filled for item in sheet.placed]
+    return prove(parts, stock, make_layout([filling], area_bound(placed, stock), ended=ended))
+
+
+def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:
+    """Nest every row of parts head to tail in blanks to order, at most `max_blank_length` long.
+
+    Parts without a row are sorted by their height. The bound counts the blanks of every row by area.
+
+    Raises
+    ------
+    Refused
+        If a part is longer than the longest blank.
+    """
+    stock = stock.model_copy(update={"sheets": ()})
+    _refuse_long(parts, stock)
+    rows = _rows(parts)
+    fillings = [_blanks(row, stock) for row in rows]
+    bound = sum(_blank_bound(row, stock) for row in rows)
+    return prove(parts, stock, make_layout(fillings, bound, ended=True))
+
+
+def _rows(parts: Sequence[Part]) -> list[list[Part]]:
+    """Give the parts row by row, in the order in which the rows first come."""
+    rows = dict[tuple[bool, Id | float], list[Part]]()
+    for part in parts:
+        key = (True, part.row) if part.row is not None else (False, box(part.outline)[1])
+        rows.setdefault(key, []).append(part)
+    return list(rows.values())
+
+
+def _blanks(row: Sequence[Part], stock: StockSettings) -> Filling:
+    classes = sort_classes(row)
+    rack = make_blank_rack(classes, stock)
+    return fill_blanks(fill_sheets(rack, piece_counts(classes), rack.areas), classes, stock)
+
+
+def _blank_bound(row: Sequence[Part], stock: StockSettings) -> int:
+    height = max(box(part.outline)[1] for part in row)
+    need = dilated_area([part.outline for part in row for _ in range(part.quantity)], stock.gap)
+    return sheets_for(need, grown_rectangle(stock.max_blank_length - 2 * stock.trim, height, stock.gap))
+
+
+def _refuse_long(parts: Sequence[Part], stock: StockSettings) -> None:
+    for part in parts:
+        if np.ptp(micrometres(part.outline)[:, 0]) > blank_length(stock):
+            length = box(part.outline)[0] + 2 * stock.trim
+            limit = f"blanks of at most {stock.max_blank_length:g} mm"
+            way_out = "Raise stock.max_blank_length or divide the part."
+            raise Refused("E-NEST-02", f"part {part.id}", f"{length:g} mm long with the trim", limit, way_out)
+
+
+def prove(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> Layout:
+    """Give the layout back if the checker finds nothing wrong with it.
+
+    Raises
+    ------
+    AssertionError
+        A fault of this program, never of its input.
+    """
+    findings = check_layout(parts, stock, layout)
+    if findings:
+        message = f"the layout failed its own check ({len(findings)} findings): {findings[0]}"
+        raise AssertionError(message)
+    return layout

@@ -1,0 +1,193 @@
+"""From parts and stock to what the search works on: classes of equal outlines, kinds and frames."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats, Ints
+from isomould.errors import Refused
+from isomould.nesting.bound import area_bound
+from isomould.nesting.layout import Id, Part
+from isomould.nesting.search import Rack
+from isomould.nesting.settings import SheetStock, StockSettings, Turning, allowed_rotations_deg
+from isomould.nesting.shapes import UM, micrometres, round_away, stand
+from isomould.nesting.sheets import Frame
+from isomould.nesting.strips import Grid, Kind, sort_kinds
+
+STEP = 1000
+"""Micrometres; the grid on which strips are filled, unless the stock is very long."""
+
+LONGEST = 12_000
+"""Grid steps in the longest strip."""
+
+PLENTY = 2**40
+"""More sheets than anyone has."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartClass:
+    """Parts with the same outline, whatever their marks; pieces in the order in which they are placed."""
+
+    outline: Floats
+    pieces: tuple[tuple[Id, str | None], ...]
+
+
+@dataclass(frozen=True)
+class Room:
+    """The room of a sheet inside the trim, micrometres."""
+
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to cut a sheet: strips of a length, stacked to a height, micrometres; cost, area: shares."""
+
+    stock: int
+    turned: bool
+    length: int
+    height: int
+    cost: float
+    area: float
+
+
+def sort_classes(parts: Sequence[Part]) -> tuple[PartClass, ...]:
+    """Join the parts with equal outlines, in the order of their first."""
+    groups = dict[bytes, list[Part]]()
+    for part in parts:
+        points = micrometres(part.outline)
+        groups.setdefault((points - points.min(axis=0)).tobytes(), []).append(part)
+    return tuple(_part_class(group) for group in groups.values())
+
+
+def _part_class(group: list[Part]) -> PartClass:
+    pieces = tuple((part.id, location) for part in group for location in locations(part.locations, part.quantity))
+    return PartClass(group[0].outline, pieces)
+
+
+def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
+    """Give one location per piece, None where there are none."""
+    return given or (None,) * quantity
+
+
+def room_inside(width: float, height: float, trim: float) -> Room:
+    """Give the room that a trim leaves, whole micrometres rounded down."""
+    return Room(*(int(np.floor((side - trim) * UM + 1e-6)) - round_away(trim * UM) for side in (width, height)))
+
+
+def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
+    """Set up every way to cut every stock sheet."""
+    rooms = [room_inside(sheet.width, sheet.height, stock.trim) for sheet in stock.sheets]
+    grid = make_grid(max(max(room.width, room.height) for room in rooms), stock.gap, stock.turning)
+    frames = [frame for index in range(len(rooms)) for frame in _frames(index, rooms, classes, stock, grid)]
+    pieces = [PLENTY if sheet.quantity is None else sheet.quantity for sheet in stock.sheets]
+    areas = _areas(classes, rooms)
+    return Rack(tuple(frames), np.array(pieces, dtype=np.int64), areas, _goal(classes, stock))
+
+
+def _goal(classes: Sequence[PartClass], stock: StockSettings) -> int:
+    """Give the bound where fewer sheets are all that can be gained: with a single kind of sheet."""
+    outlines = [kind.outline for kind in classes for _ in kind.pieces]
+    return area_bound(outlines, stock) if len(stock.sheets) == 1 else 0
+
+
+def make_blank_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
+    """Set up blanks to order: the longest strip, as high as the highest part, without quarter turns."""
+    height = max(int(np.ptp(micrometres(kind.outline)[:, 1])) for kind in classes)
+    room = Room(blank_length(stock), height)
+    grid = make_grid(room.width, stock.gap, stock.turning)
+    kinds = classes_by_kind(classes, (0,), grid)
+    frame = _frame(Case(0, False, room.width, room.height, 1.0, 1.0), kinds, grid)
+    return Rack((frame,), np.array([PLENTY]), _areas(classes, [room]))
+
+
+def blank_length(stock: StockSettings) -> int:
+    """Give the room for a strip in the longest blank, micrometres."""
+    return room_inside(stock.max_blank_length, stock.max_blank_length, stock.trim).width
+
+
+def make_grid(longest: int, gap: float, turning: Turning) -> Grid:
+    """Give a grid that is fine enough for panels and coarse enough for coils."""
+    return Grid(STEP * max(1, -(-longest // (STEP * LONGEST))), gap * UM, flips=turning != "none")
+
+
+def _areas(classes: Sequence[PartClass], rooms: Sequence[Room]) -> Floats:
+    largest = max(room.width * room.height for room in rooms) / UM**2
+    return np.array([shapely.Polygon(kind.outline).area for kind in classes]) / largest
+
+
+def _frames(
+    index: int, rooms: Sequence[Room], classes: Sequence[PartClass], stock: StockSettings, grid: Grid
+) -> list[Frame]:
+    sheet, room = stock.sheets[index], rooms[index]
+    turns = (0, 90) if 90 in allowed_rotations_deg(stock, sheet) else (0,)
+    kinds = classes_by_kind(classes, turns, grid)
+    share = room.width * room.height / max(room.width * room.height for room in rooms)
+    cost = _cost(sheet, stock.sheets, share)
+    lying = Case(index, False, room.width, room.height, cost, share)
+    upright = Case(index, True, room.height, room.width, cost, share)
+    return [_frame(case, kinds, grid) for case in (lying, upright)[: len(turns)]]
+
+
+def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> float:
+    """Give the price if every sheet has one, else the area; both as shares of the largest."""
+    prices = [other.price for other in sheets]
+    return sheet.price / max(prices) if all(prices) else share
+
+
+def classes_by_kind(classes: Sequence[PartClass], turns: tuple[int, ...], grid: Grid) -> tuple[Kind, ...]:
+    """Stand every class on the strip in the given rotations and sort the shapes into kinds."""
+    shapes = [(index, stand(kind.outline, turn)) for index, kind in enumerate(classes) for turn in turns]
+    return sort_kinds(shapes, [len(kind.pieces) for kind in classes], grid)
+
+
+def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
+    """Give the frame of a case, with what fits into it."""
+    gap = round_away(grid.gap)
+    fitting = (_fitting(kind, case.length) for kind in kinds if kind.height <= case.height)
+    return Frame(
+        stock=case.stock,
+        turned=case.turned,
+        capacity=(case.length + gap) // grid.step,
+        room=case.height + gap,
+        gap=gap,
+        cost=case.cost,
+        area=case.area,
+        kinds=tuple(kind for kind in fitting if kind.items),
+    )
+
+
+def _fitting(kind: Kind, length: int) -> Kind:
+    return Kind(kind.height, kind.setup, tuple(item for item in kind.items if item.shape.width <= length))
+
+
+def piece_counts(classes: Sequence[PartClass]) -> Ints:
+    """Give the pieces of every class."""
+    return np.array([len(kind.pieces) for kind in classes], dtype=np.int64)
+
+
+def refuse_oversize(parts: Sequence[Part], stock: StockSettings) -> None:
+    """Refuse a part that fits no sheet in any rotation that is allowed there, with the size that it needs."""
+    for part in parts:
+        if not any(_fits(part, sheet, stock) for sheet in stock.sheets):
+            width, height = box(part.outline)
+            found = f"needs {width + 2 * stock.trim:g} x {height + 2 * stock.trim:g} mm with the trim"
+            limit = " or ".join(f"{sheet.width:g} x {sheet.height:g} mm ({sheet.name})" for sheet in stock.sheets)
+            raise Refused("E-NEST-01", f"part {part.id}", found, limit, "Add a larger sheet or divide the part.")
+
+
+def box(outline: Floats) -> tuple[float, float]:
+    """Give the size of the bounding box, mm."""
+    width, height = np.ptp(micrometres(outline), axis=0) / UM
+    return float(width), float(height)
+
+
+def _fits(part: Part, sheet: SheetStock, stock: StockSettings) -> bool:
+    room = room_inside(sheet.width, sheet.height, stock.trim)
+    width, height = np.ptp(micrometres(part.outline), axis=0)
+    upright = bool(width <= room.width and height <= room.height)
+    turned = bool(height <= room.width and width <= room.height)
+    return upright or (turned and 90 in allowed_rotations_deg(stock, sheet))

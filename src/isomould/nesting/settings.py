@@ -1,0 +1,91 @@
+"""The `[stock]` table: what lies in the rack, and how it may be cut."""
+
+from typing import Literal
+
+from pydantic import model_validator
+
+from isomould.settings import Settings
+from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
+
+Turning = Literal["none", "half", "quarter"]
+"""Rotations that a part may take: 0; 0 and 180; every multiple of 90 degrees."""
+
+ROTATIONS_DEG: dict[Turning, tuple[int, ...]] = {"none": (0,), "half": (0, 180), "quarter": (0, 90, 180, 270)}
+
+
+class SheetStock(Settings):
+    """A stock sheet. `quantity` None is unlimited; a sheet with a grain takes no quarter turns."""
+
+    name: str
+    width: PositiveLength
+    height: PositiveLength
+    price: NonNegativeNumber = 0.0
+    quantity: Count | None = None
+    grain: Flag = False
+
+
+class BarStock(Settings):
+    """A stock bar of one section. `quantity` None is unlimited."""
+
+    section: str
+    length: PositiveLength
+    price: NonNegativeNumber = 0.0
+    quantity: Count | None = None
+
+
+class StockSettings(Settings):
+    """Sheets and bars, and what is lost between the parts (fabrication, "Nesting panels in sheets").
+
+    `gap` is the clear distance of finished outlines and includes the kerf; `trim` is lost along every edge
+    of a sheet, `bar_trim` at each end of a bar. Without sheets the panels are nested in blanks to order of
+    at most `max_blank_length`.
+    """
+
+    sheets: tuple[SheetStock, ...] = ()
+    bars: tuple[BarStock, ...] = ()
+    gap: NonNegativeLength = 5.0
+    kerf: NonNegativeLength = 0.0
+    trim: NonNegativeLength = 0.0
+    turning: Turning = "quarter"
+    turn_over: Flag = False
+    guillotine: Flag = True
+    max_blank_length: PositiveLength = 6000.0
+    bar_kerf: NonNegativeLength = 3.0
+    bar_trim: NonNegativeLength = 0.0
+
+    @model_validator(mode="after")
+    def _gap_holds_the_kerf(self) -> "StockSettings":
+        if self.gap < self.kerf:
+            message = f"gap {self.gap:g} mm is less than the kerf {self.kerf:g} mm that it includes; widen the gap"
+            raise ValueError(message)
+        return self
+
+    @model_validator(mode="after")
+    def _room_inside_the_trim(self) -> "StockSettings":
+        for sheet in self.sheets:
+            if 2 * self.trim >= min(sheet.width, sheet.height):
+                message = f"trim {self.trim:g} mm leaves nothing of sheet {sheet.name!r}; reduce the trim"
+                raise ValueError(message)
+        return self
+
+    @model_validator(mode="after")
+    def _room_between_the_bar_trims(self) -> "StockSettings":
+        for bar in self.bars:
+            if 2 * self.bar_trim >= bar.length:
+                message = f"bar_trim {self.bar_trim:g} mm leaves nothing of a bar of {bar.length:g} mm; reduce it"
+                raise ValueError(message)
+        return self
+
+    @model_validator(mode="after")
+    def _sheets_have_their_own_names(self) -> "StockSettings":
+        names = [sheet.name for sheet in self.sheets]
+        if len(set(names)) < len(names):
+            message = "two stock sheets have the same name; give every sheet a name of its own"
+            raise ValueError(message)
+        return self
+
+
+def allowed_rotations_deg(stock: StockSettings, sheet: SheetStock | None) -> tuple[int, ...]:
+    """Give the rotations that parts may take on a sheet (None: on a blank to order), ascending."""
+    allowed = ROTATIONS_DEG[stock.turning]
+    return tuple(turn for turn in allowed if turn % 180 == 0) if sheet is not None and sheet.grain else allowed

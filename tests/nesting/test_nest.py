@@ -1,0 +1,142 @@
+"""Layouts of sheets and blanks: everything through the checker, and good enough."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from nesting_examples import GLASS, located, part_lists, racks, rows_of_trapezoids, trapezoid
+
+from isomould.errors import Refused
+from isomould.nesting.checker import check_layout
+from isomould.nesting.files import layout_from_json, layout_to_json
+from isomould.nesting.layout import Part
+from isomould.nesting.nest import nest_blanks, nest_sheets
+from isomould.nesting.search import Search
+from isomould.nesting.settings import SheetStock, StockSettings
+
+STOCK = StockSettings(sheets=(GLASS,), gap=5, trim=20)
+QUICK = Search("quick")
+
+
+@settings(max_examples=100, deadline=None)
+@given(part_lists(), racks())
+def test_every_layout_is_proved(parts: tuple[Part, ...], stock: StockSettings) -> None:
+    layout = nest_sheets(parts, stock, QUICK)
+    assert check_layout(parts, stock, layout) == ()
+    assert layout.bound <= len(layout.sheets)
+    assert not layout.unplaced
+
+
+@settings(max_examples=50, deadline=None)
+@given(part_lists(), racks())
+def test_blanks_are_proved(parts: tuple[Part, ...], stock: StockSettings) -> None:
+    blanks = stock.model_copy(update={"sheets": ()})
+    layout = nest_blanks(parts, stock)
+    assert check_layout(parts, blanks, layout) == ()
+    assert not layout.unplaced
+
+
+@pytest.mark.parametrize("unequal", [False, True])
+def test_vault_is_near_its_bound(unequal: bool) -> None:
+    layout = nest_sheets(rows_of_trapezoids(7, 8, 20, unequal=unequal), STOCK, QUICK)
+    assert len(layout.sheets) <= 1.08 * layout.bound
+
+
+def test_same_parts_give_the_same_bytes() -> None:
+    parts = rows_of_trapezoids(3, 4, 6)
+    one, other = (layout_to_json(nest_sheets(parts, STOCK, QUICK)) for _ in range(2))
+    assert one == other
+
+
+def test_rectangles_fill_a_sheet_exactly() -> None:
+    stock = StockSettings(sheets=(SheetStock(name="s", width=3000, height=2000),), gap=0, trim=0)
+    layout = nest_sheets([Part("A", trapezoid(1000, 500, 0, 0), 24)], stock, QUICK)
+    assert (len(layout.sheets), layout.yield_percent) == (2, 100.0)
+
+
+def test_head_to_tail_row_needs_the_length_of_the_formula() -> None:
+    """Sum of mean widths + (n - 1) gap / cos + h tan (nesting, "What works", 1)."""
+    layout = nest_blanks([Part("A", trapezoid(1000, 800, 60, 60), 5)], StockSettings(gap=5))
+    expected = 5 * 940 + 4 * 5 * np.hypot(1, 60 / 800) + 60
+    assert layout.sheets[0].width == pytest.approx(expected, abs=0.005)
+    assert layout.sheets[0].height == 800
+
+
+def test_locations_come_back_once_each() -> None:
+    part = located(Part("P01", trapezoid(900, 700, 10, 10), 40))
+    layout = nest_sheets([part], STOCK, QUICK)
+    assert sorted(item.location or "" for item in layout.placements) == sorted(part.locations)
+
+
+def test_part_that_fits_no_sheet_is_named_with_its_size() -> None:
+    with pytest.raises(Refused, match=r"part P09: needs 7040 x 540 mm"):
+        nest_sheets([Part("P09", trapezoid(7000, 500, 0, 0))], STOCK)
+
+
+def test_part_longer_than_a_blank_is_refused() -> None:
+    with pytest.raises(Refused, match=r"part P09: 7000 mm long"):
+        nest_blanks([Part("P09", trapezoid(7000, 500, 0, 0))], StockSettings())
+
+
+def test_used_up_stock_leaves_parts_unplaced() -> None:
+    stock = STOCK.model_copy(update={"sheets": (GLASS.model_copy(update={"quantity": 1}),)})
+    layout = nest_sheets([Part("A", trapezoid(2900, 1500, 0, 0), 9)], stock, QUICK)
+    assert (len(layout.placements), len(layout.unplaced), layout.status) == (4, 5, "incomplete")
+
+
+def test_grain_forbids_quarter_turns() -> None:
+    tall = Part("A", trapezoid(500, 3300, 0, 0))
+    grained = STOCK.model_copy(update={"sheets": (GLASS.model_copy(update={"grain": True}),)})
+    assert nest_sheets([tall], STOCK, QUICK).placements[0].rotation_deg in (90, 270)
+    with pytest.raises(Refused):
+        nest_sheets([tall], grained, QUICK)
+
+
+def test_cheaper_sheets_are_preferred() -> None:
+    cheap = SheetStock(name="cheap", width=3000, height=2000, price=1)
+    dear = SheetStock(name="dear", width=6000, height=2000, price=10)
+    stock = StockSettings(sheets=(dear, cheap), gap=5)
+    layout = nest_sheets([Part("A", trapezoid(900, 900, 10, 10), 12)], stock, QUICK)
+    assert {sheet.stock for sheet in layout.sheets} == {"cheap"}
+
+
+def test_stopped_search_gives_a_whole_layout_that_is_not_reproducible() -> None:
+    parts = rows_of_trapezoids(3, 4, 6)
+    layout = nest_sheets(parts, STOCK, Search("best", should_stop=lambda: True))
+    assert (layout.status, layout.reproducible) == ("complete", False)
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[int, int, int]] = []
+    layout = nest_sheets(rows_of_trapezoids(3, 4, 6), STOCK, Search("quick", lambda *news: told.append(news)))
+    assert [done for done, _, _ in told] == list(range(1, len(told) + 1))
+    assert len(told) <= told[-1][1]
+    assert told[-1][2] == len(layout.sheets)
+
+
+def test_layout_survives_its_file() -> None:
+    parts = rows_of_trapezoids(3, 2, 6)
+    text = layout_to_json(nest_sheets(parts, STOCK, QUICK))
+    again = layout_from_json(text)
+    assert layout_to_json(again) == text
+    assert check_layout(parts, STOCK, again) == ()
+
+
+def test_file_that_is_no_layout_is_refused() -> None:
+    with pytest.raises(Refused, match="layout"):
+        layout_from_json('{"schema": 2}')
+
+
+def test_search_ends_at_the_bound() -> None:
+    told: list[tuple[int, int, int]] = []
+    parts = [Part("A", trapezoid(2900, 1500, 0, 0), 8)]
+    layout = nest_sheets(parts, STOCK, Search("best", lambda *news: told.append(news)))
+    assert (layout.gap_to_bound, told, layout.reproducible) == (0, [], True)
+
+
+def test_nothing_to_nest_needs_no_sheet() -> None:
+    assert nest_sheets([], STOCK).sheets == ()
+
+
+def test_gap_below_the_kerf_is_refused() -> None:
+    with pytest.raises(ValueError, match="kerf"):
+        StockSettings(gap=5, kerf=6)
