@@ -1,0 +1,1 @@
+"""The checks, grouped by what they prove; each group ends with its table of rules."""

@@ -1,0 +1,28 @@
+"""V50: the manifest lists exactly the files that are there, with their hashes."""
+
+from isomould.verify.delivery import Delivery
+from isomould.verify.rules import Measured, Rule, faults
+
+OWN = "manifest.json"
+LATER = "certificate.json"
+"""What a candidate folder does not hold yet."""
+
+
+def manifest(delivery: Delivery) -> Measured:
+    """Compare names, sizes and hashes; a candidate's certificate may still be missing."""
+    rows = delivery.manifest["files"]
+    listed = {row["path"]: (row["sha256"], row["size"]) for row in rows}
+    found = {path: value for path, value in delivery.hashes.items() if path != OWN}
+    if not delivery.final:
+        listed.pop(LATER, None)
+        found.pop(LATER, None)
+    problems = [f"{path} is not listed" for path in sorted(found.keys() - listed.keys())]
+    problems += [f"{path} is missing" for path in sorted(listed.keys() - found.keys())]
+    problems += [f"{path} is changed" for path in sorted(found.keys() & listed.keys()) if found[path] != listed[path]]
+    problems += ["a file is listed twice"] * (len(rows) > len({row["path"] for row in rows}))
+    if delivery.final and LATER not in found:
+        problems.append(f"{LATER} is missing")
+    return faults(len(rows), problems)
+
+
+RULES = (Rule("V50", "the manifest lists exactly the files that are there", 0, "files", manifest),)

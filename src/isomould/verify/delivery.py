@@ -1,0 +1,122 @@
+"""A delivered folder, read lazily: every file once, when the first check asks for it."""
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from isomould.verify.read.design import Design, read_design
+from isomould.verify.read.dxf import Drawing, read_dxf, with_layers
+from isomould.verify.read.layout import Layout, read_layout
+from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
+from isomould.verify.read.solid import Solid, read_3mf
+from isomould.verify.read.tables import Table, pairs, read_table
+from isomould.verify.read.text import Json, read_json
+from isomould.verify.read.workbook import Workbook, read_workbook
+from isomould.verify.rules import Floats, Unreadable
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """A folder to prove; `final` says whether its certificate and final manifest must be there."""
+
+    folder: Path
+    final: bool = True
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The mesh of `model/geometry.npz`."""
+        return read_mesh(self.folder / "model" / "geometry.npz")
+
+    @cached_property
+    def design(self) -> Design:
+        """The design of `model/design.json`."""
+        return read_design(self.folder / "model" / "design.json")
+
+    @cached_property
+    def manifest(self) -> Json:
+        """The content of `manifest.json`."""
+        return read_json(self.folder / "manifest.json")
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The nest of `sheets/nesting.json`."""
+        return read_layout(self.folder / "sheets" / "nesting.json")
+
+    @cached_property
+    def tables(self) -> dict[str, Table]:
+        """All tables by name."""
+        return {path.stem: read_table(path) for path in self.files("tables", "csv")}
+
+    @cached_property
+    def workbook(self) -> Workbook:
+        """The workbook `schedules.xlsx`."""
+        return read_workbook(self.folder / "schedules.xlsx")
+
+    @cached_property
+    def panels(self) -> dict[str, Drawing]:
+        """The part files of the panels by mark."""
+        return self.drawings("panels")
+
+    @cached_property
+    def members(self) -> dict[str, Drawing]:
+        """The part files of the members by mark."""
+        return self.drawings("members")
+
+    @cached_property
+    def sheets(self) -> dict[str, Drawing]:
+        """The cut sheets by name."""
+        return self.drawings("sheets")
+
+    @cached_property
+    def solids(self) -> dict[str, Solid]:
+        """The node solids by mark."""
+        return {path.stem: read_3mf(path) for path in self.files("nodes", "3mf")}
+
+    @cached_property
+    def solid_records(self) -> Json:
+        """What the maker of the solids measured, `nodes/solids.json`."""
+        return read_json(self.folder / "nodes" / "solids.json")
+
+    @cached_property
+    def hashes(self) -> dict[str, tuple[str, int]]:
+        """SHA-256 and size of every file in the folder, by its path with forward slashes."""
+        paths = sorted(path for path in self.folder.rglob("*") if path.is_file() or path.is_symlink())
+        return {path.relative_to(self.folder).as_posix(): _hash(path) for path in paths}
+
+    @cached_property
+    def edge_slopes(self) -> Floats:
+        """Sine of the angle between every edge and the axes of its two nodes, (e, 2)."""
+        edges = edge_vectors(self.mesh)
+        unit = edges / np.linalg.norm(edges, axis=1)[:, None]
+        return np.linalg.norm(np.cross(unit[:, None], self.mesh.node_axes[self.mesh.edges]), axis=2)
+
+    @cached_property
+    def node_kinds(self) -> dict[str, str]:
+        """Kind of the node (interior, flat, boundary, support) by mark."""
+        return pairs(self.table("nodes"), "mark", "kind")
+
+    def files(self, folder: str, suffix: str) -> list[Path]:
+        """Give the files of a subfolder with a suffix, sorted."""
+        return sorted((self.folder / folder).glob(f"*.{suffix}"))
+
+    def drawings(self, folder: str) -> dict[str, Drawing]:
+        """Read the drawings of a subfolder ("." is the folder itself) by name, shop layers under our names."""
+        named = {shop: layer for layer, shop in self.design.raw.get("layers", {}).items()}
+        return {path.stem: with_layers(read_dxf(path), named) for path in self.files(folder, "dxf")}
+
+    def table(self, name: str) -> Table:
+        """Give one table, or say that it is missing."""
+        if name not in self.tables:
+            message = f"tables/{name}.csv is missing"
+            raise Unreadable(message)
+        return self.tables[name]
+
+
+def _hash(path: Path) -> tuple[str, int]:
+    if path.is_symlink():
+        return "a link, not a file", 0
+    content = path.read_bytes()
+    return hashlib.sha256(content).hexdigest(), len(content)
