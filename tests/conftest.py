@@ -15,7 +15,7 @@ def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A delivered small project with sheets and bars in stock; copy it before changing it."""
     folder = tmp_path_factory.mktemp("built")
     project = write_project(folder / "small.toml", SMALL)
-    return isomould.build(project, folder / "small", effort="quick").folder
+    return isomould.build(project, folder / "small", run=isomould.Run(effort="quick", jobs=1)).folder
 
 
 @pytest.fixture

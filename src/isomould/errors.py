@@ -26,6 +26,10 @@ class Refused(IsomouldError):
         super().__init__(f"{code} {field}: {found}. Limit: {limit}. {way_out}")
         self.code, self.field, self.found, self.limit, self.way_out = code, field, found, limit, way_out
 
+    def __reduce__(self) -> tuple[type["Refused"], tuple[str, ...]]:
+        """Travel between processes by the five texts, not by the message made of them."""
+        return type(self), (self.code, self.field, self.found, self.limit, self.way_out)
+
 
 class CertificateFailed(IsomouldError):
     """A delivered folder that does not prove what it claims."""

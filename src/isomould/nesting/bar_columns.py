@@ -34,20 +34,23 @@ class Demand:
         return max(exact, -(-self.room // GRID))
 
 
-def find_patterns(demand: Demand) -> tuple[list[Ints], int]:
-    """Give patterns (pieces of every size on a bar) that cover the demand, and a bound for their number."""
-    columns = _columns(demand, np.diag(np.minimum(demand.counts, demand.room // demand.sizes)))
+def find_patterns(demand: Demand, known: Ints) -> tuple[list[Ints], int]:
+    """Give patterns (pieces of every size on a bar) that cover the demand, and a bound for their number.
+
+    `known` (sizes, bars) are the patterns of a first layout of the whole demand: the search starts from them.
+    """
+    columns = _columns(demand, np.unique(known, axis=1))
     worth = _solve(columns, demand.counts)[1]
     return _round(columns, demand), _bound(demand, worth)
 
 
 def _columns(demand: Demand, columns: Ints) -> Ints:
-    """Price patterns until none is worth more than its bar; one column per pattern."""
+    """Price patterns until none is worth more than its bar, or could save a whole one; one column per pattern."""
     up = -(-demand.sizes // demand.step)
     for _ in range(ROUNDS):
         worth = _solve(columns, demand.counts)[1]
         pattern = _best_pattern(worth, up, demand)
-        if worth @ pattern <= 1 + 1e-9:
+        if math.ceil(_share(worth, pattern, demand)) >= math.ceil(worth @ demand.counts - 1e-6):
             break
         columns = np.column_stack([columns, pattern])
     return columns
@@ -84,7 +87,11 @@ def _take(best: Floats, size: int, worth: float) -> Bools:
 def _bound(demand: Demand, worth: Floats) -> int:
     """Give Farley's bound: the worth of all pieces by that of the best bar, sizes rounded down."""
     pattern = _best_pattern(worth, demand.sizes // demand.step, demand)
-    return math.ceil(worth @ demand.counts / max(worth @ pattern, 1.0) - 1e-6)
+    return math.ceil(_share(worth, pattern, demand))
+
+
+def _share(worth: Floats, pattern: Ints, demand: Demand) -> float:
+    return float(worth @ demand.counts / max(worth @ pattern, 1.0) - 1e-6)
 
 
 def _round(columns: Ints, demand: Demand) -> list[Ints]:

@@ -87,7 +87,7 @@ def _best(pieces: list[_Piece], kinds: Sequence[_Kind]) -> tuple[list[_Plan], in
     plans = min((pack(pieces, kinds) for pack in (_first_fit, _largest_first)), key=_merit)
     if len(plans) == bound or not _patterns_pay(pieces, kinds):
         return plans, bound
-    patterned, proved = _by_patterns(pieces, kinds[0])
+    patterned, proved = _by_patterns(pieces, plans, kinds[0])
     return min(plans, patterned, key=_merit), max(bound, proved)
 
 
@@ -96,9 +96,11 @@ def _patterns_pay(pieces: Sequence[_Piece], kinds: Sequence[_Kind]) -> bool:
     return len(kinds) == 1 and kinds[0].bar.quantity is None and worth_trying([piece.size for piece in pieces])
 
 
-def _by_patterns(pieces: list[_Piece], kind: _Kind) -> tuple[list[_Plan], int]:
+def _by_patterns(pieces: list[_Piece], plans: list[_Plan], kind: _Kind) -> tuple[list[_Plan], int]:
+    """Improve first plans of all pieces by patterns."""
     sizes, counts = np.unique([piece.size for piece in pieces], return_counts=True)
-    patterns, bound = find_patterns(Demand(sizes, counts, kind.room))
+    known = [np.bincount(np.searchsorted(sizes, [p.size for p in used]), minlength=len(sizes)) for _, used in plans]
+    patterns, bound = find_patterns(Demand(sizes, counts, kind.room), np.stack(known, axis=1))
     queues = {int(size): deque(piece for piece in pieces if piece.size == size) for size in sizes}
     cut = [
         [int(size) for size, count in zip(sizes, pattern, strict=True) for _ in range(count)] for pattern in patterns

@@ -50,7 +50,7 @@ class Classes:
         return np.bincount(self.of, minlength=len(self.representative))
 
 
-def classify(numbers: Floats, labels: Ints, tolerance: Floats, *, natural: bool) -> Classes:
+def classify(numbers: Floats, labels: Ints, tolerance: Floats, order: Ints | None = None) -> Classes:
     """Sort instances into classes.
 
     Parameters
@@ -61,20 +61,22 @@ def classify(numbers: Floats, labels: Ints, tolerance: Floats, *, natural: bool)
         Labels of each variant; they must agree exactly.
     tolerance : (q,) float
         Largest admissible spread of each number within a class.
-    natural
-        Describe a class by its representative as it stands (variant 0) and not by its smallest variant.
+    order : (q + r,) int, optional
+        Describe a class by the smallest variant of its representative, reading numbers and then labels in this
+        order; without it by the representative as it stands (variant 0).
     """
-    best = smallest(numbers, labels)
+    best = smallest(numbers, labels, order)
     rows = np.arange(len(numbers))
     rounded = np.concatenate([labels[rows, best], _snapped(numbers[rows, best])], axis=1)
     _, first, proto = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
     merged = _merge(numbers[first], labels[first], best[first], tolerance)
-    return _describe(numbers, labels, np.zeros_like(best) if natural else best, merged[proto.ravel()])
+    return _describe(numbers, labels, np.zeros_like(best) if order is None else best, merged[proto.ravel()])
 
 
-def smallest(numbers: Floats, labels: Ints) -> Ints:
-    """Number (n,) of the lexicographically smallest variant: labels first, then numbers, noise apart."""
-    columns = np.concatenate([labels, _snapped(numbers)], axis=2)
+def smallest(numbers: Floats, labels: Ints, order: Ints | None = None) -> Ints:
+    """Number (n,) of the lexicographically smallest variant, numbers and then labels read in an order, noise apart."""
+    columns = np.concatenate([_snapped(numbers), labels], axis=2)
+    columns = columns if order is None else columns[:, :, order]
     alive = np.ones(columns.shape[:2], dtype=bool)
     top = np.iinfo(np.int64).max
     for column in np.moveaxis(columns, 2, 0):

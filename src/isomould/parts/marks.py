@@ -16,6 +16,7 @@ def marks(prefix: str, count: int) -> tuple[str, ...]:
 def locations(prefix: str, ij: Ints) -> tuple[str, ...]:
     """Give the locations of instances with the indices (n, 2), padded to the largest, at least two digits.
 
+    >>> import numpy as np
     >>> locations("P", np.array([[0, 7], [3, 12]]))
     ('P-00-07', 'P-03-12')
     """

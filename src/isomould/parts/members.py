@@ -98,7 +98,7 @@ def make_members(
     height = drum.height[nodes.classes.of[mesh.edges]]
     numbers, labels = _variants(length, elevation, height, mesh.family)
     spread = np.array([tolerance.length, *[np.radians(tolerance.angle_deg)] * 2])
-    classes = classify(numbers, labels, spread, natural=True)
+    classes = classify(numbers, labels, spread)
     where = member_locations(mesh)
     chosen = classes.representative
     shapes = tuple(_cut(length[k], elevation[k], height[k], drum, settings, where[k]) for k in chosen)

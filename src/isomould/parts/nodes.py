@@ -83,7 +83,7 @@ def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings) -> Nod
     rows = _arm_table(arms)
     numbers, labels = _signatures(mesh, arms, _rotations(rows))
     spread = np.full(numbers.shape[2], np.radians(tolerance.angle_deg))
-    classes = classify(numbers, labels, spread, natural=False)
+    classes = classify(numbers, labels, spread, _reading_order(rows.shape[1]))
     ordered = np.take_along_axis(_rotations(rows), classes.variant[:, None, None], axis=1)[:, 0]
     first = ordered[:, 0]
     axes = mesh.axes
@@ -133,6 +133,15 @@ def _signatures(mesh: Mesh, arms: Arms, order: Ints, *, mirrored: bool = False) 
     return np.concatenate(numbers, axis=2), np.concatenate([family, kind], axis=2)
 
 
+def _reading_order(valence: int) -> Ints:
+    """Order of the columns of a signature that compares nodes arm by arm: gap, elevation, family; the kind last.
+
+    Arm 1 is the one from which the sequence read so is smallest (fabrication, Node solids).
+    """
+    arm_by_arm = np.arange(3 * valence).reshape(3, valence).T.ravel()
+    return np.append(arm_by_arm, 3 * valence)
+
+
 def _class_arms(mesh: Mesh, arms: Arms, row: Ints) -> NodeArms:
     row = row[row >= 0]
     azimuth = np.concatenate([[0.0], np.cumsum(arms.gap[row])[:-1]])
@@ -151,6 +160,7 @@ def _handedness(mesh: Mesh, arms: Arms, rows: Ints, tolerance: Floats) -> tuple[
     numbers, labels = _signatures(mesh, arms, _rotations(rows))
     mirror, tags = _signatures(mesh, arms, _rotations(_backwards(rows)), mirrored=True)
     same = agrees_with_mirror(numbers[:, 0], mirror, np.concatenate([labels[:, :1], tags], axis=1), tolerance)
-    both = smallest(np.concatenate([numbers, mirror], axis=1), np.concatenate([labels, tags], axis=1))
+    variants = np.concatenate([numbers, mirror], axis=1), np.concatenate([labels, tags], axis=1)
+    both = smallest(*variants, _reading_order(rows.shape[1]))
     left = both < numbers.shape[1]
     return tuple("none" if same[k] else ("L" if left[k] else "R") for k in range(len(rows)))

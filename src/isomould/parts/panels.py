@@ -111,7 +111,7 @@ def make_panels(mesh: Mesh, depth: float, settings: PanelSettings, tolerance: Co
     _refuse_vanished(corners, _in_plane(seats, seats.along), where)
     numbers, labels = _variants(corners, flippable=settings.flippable)
     spread = np.full(numbers.shape[2], tolerance.length)
-    classes = classify(numbers, labels, spread, natural=True)
+    classes = classify(numbers, labels, spread)
     chosen = classes.representative
     return PanelParts(
         classes=classes,

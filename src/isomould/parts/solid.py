@@ -36,9 +36,12 @@ class Solid:
     triangles : (m, 3) int
         Counter-clockwise from outside.
     volume, surface : float, mm³ and mm²
+    status : str
+        What the solid kernel says of itself.
     genus, components : int
     inclusion_exclusion, commutativity : float
-        Relative residuals of vol(A + B) = vol(A) + vol(B) − vol(A ∩ B) and of the operands' order.
+        Relative residuals of vol(A + B) = vol(A) + vol(B) − vol(A ∩ B), and of volume and area when the operands
+        change places.
     analytic_volume : float, mm³
         Cross-section times height, computed without the solid kernel.
     """
@@ -47,6 +50,7 @@ class Solid:
     triangles: Ints
     volume: float
     surface: float
+    status: str
     genus: int
     components: int
     inclusion_exclusion: float
@@ -86,14 +90,21 @@ def _make_solid(arms: NodeArms, drum: Drum, height: float, slot_end: str, mark: 
         triangles=np.array(mesh.tri_verts, dtype=np.int64),
         volume=float(body.volume()),
         surface=float(body.surface_area()),
+        status=body.status().name,
         genus=int(body.genus()),
         components=len(body.decompose()),
         inclusion_exclusion=abs(together.volume() + overlap.volume() - sum_of_both) / sum_of_both,
-        commutativity=abs((cutters + blank).volume() - together.volume()) / together.volume(),
+        commutativity=_difference(cutters + blank, together),
         analytic_volume=_section_area(arms, drum, slot_end) * height,
     )
     _check(solid, blank.volume() - overlap.volume(), drum.bore > 0, mark)
     return solid
+
+
+def _difference(one: m3.Manifold, other: m3.Manifold) -> float:
+    """Larger relative difference of volume and surface area."""
+    volume = abs(one.volume() - other.volume()) / other.volume()
+    return max(volume, abs(one.surface_area() - other.surface_area()) / other.surface_area())
 
 
 def _cylinder(radius: float, height: float) -> m3.Manifold:

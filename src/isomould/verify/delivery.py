@@ -16,6 +16,7 @@ from isomould.verify.read.tables import Table, pairs, read_table
 from isomould.verify.read.text import Json, read_json
 from isomould.verify.read.workbook import Workbook, read_workbook
 from isomould.verify.rules import Floats, Unreadable
+from isomould.workers import Spread, one_by_one
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class Delivery:
 
     folder: Path
     final: bool = True
+    spread: Spread = one_by_one
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -105,7 +107,9 @@ class Delivery:
     def drawings(self, folder: str) -> dict[str, Drawing]:
         """Read the drawings of a subfolder ("." is the folder itself) by name, shop layers under our names."""
         named = {shop: layer for layer, shop in self.design.raw.get("layers", {}).items()}
-        return {path.stem: with_layers(read_dxf(path), named) for path in self.files(folder, "dxf")}
+        paths = self.files(folder, "dxf")
+        drawings = self.spread(read_dxf, paths)
+        return {path.stem: with_layers(drawing, named) for path, drawing in zip(paths, drawings, strict=True)}
 
     def table(self, name: str) -> Table:
         """Give one table, or say that it is missing."""

@@ -21,6 +21,7 @@ from isomould.verify.checks import (
 )
 from isomould.verify.delivery import Delivery
 from isomould.verify.rules import Rule, judge
+from isomould.workers import Spread, one_by_one
 
 _GROUPS = (
     panels,
@@ -46,7 +47,7 @@ RULES: tuple[Rule, ...] = tuple(sorted((rule for group in _GROUPS for rule in gr
 """Every check there is, in the order of the certificate."""
 
 
-def verify_folder(folder: Path, *, final: bool = True) -> Certificate:
+def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_one) -> Certificate:
     """Run every check on a folder (proof.md).
 
     Parameters
@@ -55,6 +56,8 @@ def verify_folder(folder: Path, *, final: bool = True) -> Certificate:
         A delivered folder, or the candidate of one.
     final
         False for a candidate: its manifest is provisional and certificate.json is not there yet.
+    spread
+        Reads the drawings side by side.
 
     Raises
     ------
@@ -64,5 +67,5 @@ def verify_folder(folder: Path, *, final: bool = True) -> Certificate:
     if not folder.is_dir():
         message = f"{folder}: no such folder. Give the folder that a build delivered."
         raise OutputFault(message)
-    delivery = Delivery(folder, final)
+    delivery = Delivery(folder, final, spread)
     return Certificate(tuple(judge(rule, delivery) for rule in RULES))

@@ -13,5 +13,5 @@ Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"
 class DeliverSettings(Settings):
     """The `[deliver]` table."""
 
-    layers: dict[Layer, LayerName] = {}
+    layers: dict[Layer, LayerName] = Field(default_factory=dict[Layer, str])
     """Other names for the layers of the machine DXF."""

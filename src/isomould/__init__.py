@@ -1,0 +1,21 @@
+"""isomould: from two curves to everything a shop needs to build a free-form gridshell."""
+
+from isomould.api import Checked, build, check, frames, nest, new, verify
+from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
+from isomould.pipeline import Run
+
+__all__ = [
+    "CertificateFailed",
+    "Checked",
+    "IsomouldError",
+    "Note",
+    "OutputFault",
+    "Refused",
+    "Run",
+    "build",
+    "check",
+    "frames",
+    "nest",
+    "new",
+    "verify",
+]

@@ -1,0 +1,109 @@
+"""The verbs of the command line as functions of the same names."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from isomould.design import Design, make_design
+from isomould.documents.overview import Fact, kit_facts
+from isomould.errors import Note
+from isomould.nesting.files import layout_to_json
+from isomould.nesting.instance import read_instance
+from isomould.nesting.layout import Layout
+from isomould.nesting.nest import nest_sheets
+from isomould.nesting.search import Effort, Search
+from isomould.pipeline import Built, Run, build_folder
+from isomould.project.load import load_project
+from isomould.templates import copy_template
+from isomould.verify import Certificate, verify_folder
+from isomould.workers import workers
+from isomould.writers.disk import replace_file
+from isomould.writers.names import safe_name
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """A design that was computed without writing files, its key figures, and what should be known about it."""
+
+    design: Design
+    facts: tuple[Fact, ...]
+    notes: tuple[Note, ...]
+
+
+def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
+    """Start a project: copy a template to `NAME.toml`, with the drawings that it names.
+
+    Raises
+    ------
+    Refused
+        If the template is unknown or a file is in the way.
+    """
+    path = Path(name)
+    return copy_template(template, path if path.suffix == ".toml" else path.with_name(f"{path.name}.toml"))
+
+
+def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
+    """Compute a design and its counts; no files are written.
+
+    Parameters
+    ----------
+    project
+        A project file.
+    changes
+        Overrides such as `'rail.curve.rise="8 m"'`.
+    """
+    loaded = load_project(Path(project), changes)
+    design = make_design(loaded.project, loaded.folder)
+    return Checked(design, kit_facts(design.kit), design.notes)
+
+
+def build(
+    project: str | Path, out: str | Path | None = None, changes: Sequence[str] = (), run: Run | None = None
+) -> Built:
+    """Build a project into a folder; the default is `outputs/<slug of the project's name>`.
+
+    Parameters
+    ----------
+    project
+        A project file.
+    out
+        The folder to publish.
+    changes
+        Overrides such as `'rail.curve.rise="8 m"'`.
+    run
+        Whether an earlier delivery may be replaced, effort, jobs, and who is told of the progress.
+
+    Raises
+    ------
+    Refused, CertificateFailed, OutputFault
+        With nothing published.
+    """
+    loaded = load_project(Path(project), changes)
+    target = Path(out) if out is not None else Path("outputs") / safe_name(loaded.project.project.name)
+    return build_folder(loaded, target, run or Run())
+
+
+def verify(folder: str | Path, jobs: int | None = None) -> Certificate:
+    """Prove a delivered folder again, from its files alone."""
+    with workers(jobs) as spread:
+        return verify_folder(Path(folder), spread=spread)
+
+
+def nest(
+    instance: str | Path,
+    out: str | Path,
+    effort: Effort = "normal",
+    should_stop: Callable[[], bool] | None = None,
+) -> Layout:
+    """Nest a part list of any origin and write the layout as JSON."""
+    given = read_instance(Path(instance))
+    layout = nest_sheets(given.parts, given.stock, Search(effort, should_stop=should_stop))
+    replace_file(Path(out), layout_to_json(layout).encode())
+    return layout
+
+
+def frames(built: Built) -> dict[str, pd.DataFrame]:
+    """Give the schedules of a build as DataFrames by table name, with the columns of the CSV files."""
+    return {table.name: table.frame for table in built.tables}

@@ -1,0 +1,199 @@
+"""The command line: parses, calls the verbs, prints.
+
+Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 interrupted.
+"""
+
+import signal
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+import isomould
+from isomould.documents.numbers import format_number
+from isomould.errors import IsomouldError
+from isomould.nesting.search import Effort
+from isomould.templates import describe_template, template_names
+from isomould.verify import Certificate
+
+_EFFORT = click.Choice(["quick", "normal", "best"])
+_INTERRUPTED = 130
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="isomould")
+def cli() -> None:
+    """From two curves to everything a shop needs to build a free-form gridshell."""
+
+
+@cli.command()
+@click.argument("name", required=False)
+@click.option("--template", default="barrel-vault", show_default=True, help="The shape to start from.")
+@click.option("--list", "list_", is_flag=True, help="List the templates.")
+def new(name: str | None, template: str, list_: bool) -> None:
+    """Start a project file NAME.toml from a template."""
+    if list_:
+        for known in template_names():
+            click.echo(f"{known:20}  {describe_template(known)}")
+        return
+    if name is None:
+        raise click.UsageError("give the new project a NAME, or --list for the templates")
+    for path in isomould.new(name, template):
+        click.echo(f"wrote {path}")
+
+
+@cli.command()
+@click.argument("project", type=click.Path(path_type=Path))
+@click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
+def check(project: Path, changes: Sequence[str]) -> None:
+    """Compute the design and print its counts; no files are written."""
+    checked = isomould.check(project, changes)
+    table = Table(box=None, show_header=False)
+    for item, value, unit in checked.facts:
+        table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
+    _console().print(table)
+    for note in checked.notes:
+        click.echo(f"note: {note}", err=True)
+
+
+@cli.command()
+@click.argument("project", type=click.Path(path_type=Path))
+@click.option("--out", type=click.Path(path_type=Path), help="Folder to write; default outputs/<project>.")
+@click.option("--replace", is_flag=True, help="Replace an earlier delivery in that folder.")
+@click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
+@click.option("--effort", type=_EFFORT, default="normal", show_default=True, help="How long to search for nests.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; default one per core. The result is the same.")
+@click.option("--quiet", is_flag=True, help="No progress.")
+def build(
+    project: Path,
+    out: Path | None,
+    replace: bool,
+    changes: Sequence[str],
+    effort: Effort,
+    jobs: int | None,
+    quiet: bool,
+) -> None:
+    """Build a project: cut sheets, schedules, solids, models, and the certificate that proves them."""
+    with _Progress(quiet) as report:
+        built = isomould.build(project, out, changes, isomould.Run(replace, effort, jobs, report))
+    passed = sum(check.status == "pass" for check in built.certificate.checks)
+    click.echo(f"built {built.folder} ({passed} checks passed)")
+    for note in built.design.notes:
+        click.echo(f"note: {note}", err=True)
+
+
+@cli.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+def verify(folder: Path) -> None:
+    """Prove a delivered folder again, from its files alone."""
+    certificate = isomould.verify(folder)
+    _console().print(_certificate_table(certificate))
+    if not certificate.passed:
+        raise isomould.CertificateFailed(f"E-CERTIFICATE {folder}: {len(certificate.failures)} checks failed")
+
+
+@cli.command()
+@click.argument("instance", type=click.Path(path_type=Path))
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="Layout file (JSON) to write.")
+@click.option("--effort", type=_EFFORT, default="normal", show_default=True)
+@click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
+def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) -> None:
+    """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
+    stop = _Stop(time_limit)
+    layout = isomould.nest(instance, out, effort, stop)
+    click.echo(
+        f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
+        f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
+    )
+    if stop.interrupted:
+        sys.exit(_INTERRUPTED)
+
+
+class _Stop:
+    """Asked by the search whether to stop: after a time limit, or once Ctrl-C was pressed."""
+
+    def __init__(self, seconds: float | None) -> None:
+        self.deadline = None if seconds is None else time.monotonic() + seconds
+        self.interrupted = False
+        signal.signal(signal.SIGINT, self._interrupt)
+
+    def _interrupt(self, *_: object) -> None:
+        self.interrupted = True
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    def __call__(self) -> bool:
+        return self.interrupted or (self.deadline is not None and time.monotonic() >= self.deadline)
+
+
+def _certificate_table(certificate: Certificate) -> Table:
+    table = Table(box=None)
+    for heading in ("", "check", "count", "worst", "limit", "where"):
+        table.add_column(heading, overflow="fold")
+    for check in certificate.checks:
+        worst = "" if check.worst is None else f"{check.worst:.3g} {check.unit}"
+        limit = "" if check.limit is None else f"{check.limit:.3g}"
+        where = check.reason or check.where
+        table.add_row(check.status, f"{check.id} {check.what}", str(check.count), worst, limit, where)
+    return table
+
+
+def _console() -> Console:
+    return Console(highlight=False, soft_wrap=False)
+
+
+class _Progress:
+    """Shows the running stage on stderr: a spinner on a terminal, plain lines otherwise."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.console = Console(stderr=True, quiet=quiet)
+        self.status = self.console.status("starting") if self.console.is_terminal and not quiet else None
+
+    def __enter__(self) -> Callable[[str], None]:
+        return self._report
+
+    def _report(self, stage: str) -> None:
+        if self.status:
+            self.status.update(stage)
+            self.status.start()
+        else:
+            self.console.print(stage, highlight=False)
+
+    def __exit__(self, *_: object) -> None:
+        if self.status:
+            self.status.stop()
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line; every failure that users can meet is one message and an exit code."""
+    signal.signal(signal.SIGTERM, _terminate)
+    sys.exit(_run(arguments))
+
+
+def _terminate(*_: Any) -> None:
+    raise KeyboardInterrupt
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    try:
+        result = cli.main(arguments, standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except IsomouldError as error:
+        click.echo(f"isomould: {error}", err=True)
+        return error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        click.echo("isomould: interrupted; nothing was published", err=True)
+        return _INTERRUPTED
+    except MemoryError:
+        click.echo(
+            "isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.",
+            err=True,
+        )
+        return 2
+    return result if isinstance(result, int) else 0

@@ -1,0 +1,112 @@
+"""Panels on sheets and members on bars: what the nesting room gets from the parts, and what comes back."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import cast
+
+from isomould.arrays import Ints
+from isomould.documents.schedules import Placed
+from isomould.errors import Refused
+from isomould.nesting.bars import nest_bars
+from isomould.nesting.layout import BarLayout, Layout, Member, Part, Unplaced
+from isomould.nesting.nest import nest_blanks, nest_sheets
+from isomould.nesting.search import Search
+from isomould.nesting.settings import StockSettings
+from isomould.parts.kit import Kit
+from isomould.workers import Spread
+
+
+@dataclass(frozen=True, eq=False)
+class Cutting:
+    """Layouts of panels and members; `bars` is None without bars in stock."""
+
+    stock: StockSettings
+    sheets: Layout
+    bars: BarLayout | None
+
+    @property
+    def placed(self) -> dict[str, Placed]:
+        """Sheet and place of every panel location."""
+        return {
+            str(p.location): Placed(
+                p.sheet, float(p.points[0, 0]), float(p.points[0, 1]), p.rotation_deg, p.turned_over
+            )
+            for p in self.sheets.placements
+        }
+
+    @property
+    def positions(self) -> dict[str, tuple[str, float]]:
+        """Bar and distance from its left end (mm) of every member location."""
+        bars = self.bars.bars if self.bars else ()
+        return {str(cut.location): (bar.id, cut.start) for bar in bars for cut in bar.cuts}
+
+
+def nest_kit(kit: Kit, section: str, stock: StockSettings | None, task: Search, spread: Spread) -> Cutting:
+    """Nest all panels and members; without stock sheets every row gets blanks to order of its own.
+
+    Raises
+    ------
+    Refused
+        If a part fits no sheet or bar, or the stock does not suffice.
+    """
+    stock = stock or StockSettings()
+    work = [
+        _panel_work(kit, stock, task),
+        *([partial(nest_bars, _member_parts(kit, section), stock)] if stock.bars else []),
+    ]
+    sheets, *rest = spread(_run, work)
+    bars = cast("BarLayout", rest[0]) if rest else None
+    refuse_unplaced(sheets.unplaced, "stock.sheets")
+    refuse_unplaced(bars.unplaced if bars else (), "stock.bars")
+    return Cutting(stock, cast("Layout", sheets), bars)
+
+
+def _run(work: Callable[[], Layout | BarLayout]) -> Layout | BarLayout:
+    return work()
+
+
+def refuse_unplaced(unplaced: Sequence[Unplaced], field: str) -> None:
+    """Refuse layouts that leave parts out: nothing is dropped."""
+    if not unplaced:
+        return
+    first = unplaced[0]
+    raise Refused(
+        "E-STOCK",
+        field,
+        f"{len(unplaced)} pieces find no place, the first is {first.id} ({first.reason})",
+        f"room for {first.needs[0]:.3f} x {first.needs[1]:.3f} mm and as many sheets or bars as the parts need",
+        "Add stock of that size, or raise its quantity.",
+    )
+
+
+def _where(kit_locations: tuple[str, ...], of: Ints, count: int) -> list[tuple[str, ...]]:
+    """Locations of every class, in order."""
+    found: list[list[str]] = [[] for _ in range(count)]
+    for location, number in zip(kit_locations, of.tolist(), strict=True):
+        found[number].append(location)
+    return [tuple(names) for names in found]
+
+
+def _panel_parts(kit: Kit) -> tuple[Part, ...]:
+    panels = kit.panels
+    rows = kit.mesh.face_ij[panels.classes.representative, 0].tolist()
+    where = _where(panels.locations, panels.classes.of, len(panels.marks))
+    return tuple(
+        Part(mark, outline, len(places), row, places)
+        for mark, outline, row, places in zip(panels.marks, panels.outlines, rows, where, strict=True)
+    )
+
+
+def _member_parts(kit: Kit, section: str) -> tuple[Member, ...]:
+    members = kit.members
+    where = _where(members.locations, members.classes.of, len(members.marks))
+    return tuple(
+        Member(mark, section, shape.cut_length, len(places), places)
+        for mark, shape, places in zip(members.marks, members.shapes, where, strict=True)
+    )
+
+
+def _panel_work(kit: Kit, stock: StockSettings, task: Search) -> Callable[[], Layout]:
+    parts = _panel_parts(kit)
+    return partial(nest_sheets, parts, stock, task) if stock.sheets else partial(nest_blanks, parts, stock)

@@ -1,0 +1,117 @@
+"""The stages in the order of the data: project, design, solids, nests, tables, files, proof."""
+
+import importlib.metadata
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from isomould.curves.settings import DxfSettings
+from isomould.cutting import nest_kit
+from isomould.delivery import Delivery, make_tables, write_delivery
+from isomould.design import Design, make_design
+from isomould.documents.table import Table
+from isomould.errors import CertificateFailed
+from isomould.nesting.search import Effort, Search
+from isomould.parts.solid import make_solids
+from isomould.project.load import LoadedProject
+from isomould.verify import Certificate, verify_folder
+from isomould.workers import Spread, workers
+from isomould.writers.disk import write_bytes
+from isomould.writers.folder import candidate
+from isomould.writers.manifest import write_manifest
+
+Report = Callable[[str], None]
+"""Told the name of every stage as it begins."""
+
+_LIBRARIES = (
+    "numpy",
+    "scipy",
+    "shapely",
+    "ezdxf",
+    "manifold3d",
+    "pandas",
+    "XlsxWriter",
+    "pydantic",
+    "trimesh",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """A delivery that was written, proved and published."""
+
+    folder: Path
+    design: Design
+    tables: tuple[Table, ...]
+    certificate: Certificate
+
+
+@dataclass(frozen=True)
+class Run:
+    """How a build is run: `jobs` processes (None: one per core) change the time, never the result."""
+
+    overwrite: bool = False
+    effort: Effort = "normal"
+    jobs: int | None = None
+    report: Report = lambda stage: None
+
+
+def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
+    """Run all stages and publish the folder by one rename.
+
+    Raises
+    ------
+    Refused
+        If the project cannot be built, or the target may not be replaced.
+    CertificateFailed
+        If the written files do not prove what they claim; nothing is published.
+    OutputFault
+        If the folder cannot be written.
+    """
+    project, report = loaded.project, run.report
+    with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
+        report("curves, surface, parts")
+        design = make_design(project, loaded.folder)
+        report(f"{len(design.kit.nodes.marks)} node solids")
+        solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
+        report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
+        cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
+        delivery = Delivery(design, solids, cutting)
+        report("schedules, drawings, models")
+        tables = make_tables(delivery)
+        write_delivery(folder, delivery, tables, spread)
+        report("certificate")
+        certificate = _certify(folder, loaded, spread)
+    return Built(target, design, tables, certificate)
+
+
+def _certify(folder: Path, loaded: LoadedProject, spread: Spread) -> Certificate:
+    """Prove the candidate from its files, add the certificate, close the manifest."""
+    inputs, libraries = read_inputs(loaded), versions()
+    write_manifest(folder, inputs, libraries)
+    certificate = verify_folder(folder, final=False, spread=spread)
+    if not certificate.passed:
+        listed = "\n".join(
+            f"  {c.id} {c.what}: {c.worst} {c.unit} at {c.where} {c.reason}" for c in certificate.failures
+        )
+        failed = f"the written files failed {len(certificate.failures)} checks; nothing was published."
+        message = f"E-CERTIFICATE: {failed} Please report it with the project file.\n{listed}"
+        raise CertificateFailed(message)
+    write_bytes(folder / "certificate.json", certificate.to_json().encode())
+    (folder / "manifest.json").unlink()
+    write_manifest(folder, inputs, libraries)
+    return certificate
+
+
+def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
+    """Give the project file and the drawings that it names, by name."""
+    curves = (loaded.project.rail.curve, loaded.project.generatrix.curve)
+    drawings = {
+        curve.file: (loaded.folder / curve.file).read_bytes() for curve in curves if isinstance(curve, DxfSettings)
+    }
+    return {"project.toml": loaded.source, **drawings}
+
+
+def versions() -> dict[str, str]:
+    """Give the versions of isomould and of the libraries that its results depend on."""
+    return {name: importlib.metadata.version(name) for name in ("isomould", *_LIBRARIES)}

@@ -1,0 +1,110 @@
+"""What was asked and decided, as plain data for `model/design.json`: what a verifier cannot see in the mesh."""
+
+import math
+from typing import Any
+
+from isomould.arrays import Floats
+from isomould.curves.curve import PlanarCurve
+from isomould.design import Design
+from isomould.form.polygon import CurvePolygon
+from isomould.nesting.settings import StockSettings
+
+
+def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
+    """Give the content of `model/design.json`; lengths in mm, angles in rad."""
+    project, plane = design.project, design.plane
+    return {
+        "schema": 1,
+        "kind": project.surface.kind,
+        "offset": design.form.surface.profile.offset,
+        "plane": {name: getattr(plane, name).tolist() for name in ("origin", "x_axis", "y_axis")},
+        "rail": _describe_line(design.rail, design.form.rail),
+        "generatrix": _describe_line(design.generatrix, design.form.generatrix),
+        "ends": project.rail.ends or ("mitred" if project.surface.kind == "edge-offset" else "square"),
+        "member": _member(design),
+        "node": _node(design),
+        "panel": _panel(design),
+        "limits": {
+            "max_deviation_mm": project.tolerances.max_deviation,
+            "min_member_mm": project.tolerances.min_member,
+        },
+        "tolerances": {"length_mm": project.tolerances.length, "angle_deg": project.tolerances.angle_deg},
+        "nesting": {
+            "gap_mm": stock.gap,
+            "kerf_mm": stock.kerf,
+            "trim_mm": stock.trim,
+            "bar_kerf_mm": stock.bar_kerf,
+            "bar_trim_mm": stock.bar_trim,
+        },
+        "layers": dict(project.deliver.layers),
+        "counts": _counts(design),
+    }
+
+
+def _describe_line(curve: PlanarCurve, polygon: CurvePolygon) -> dict[str, Any]:
+    edges = polygon.edges
+    contacts = zip(edges.role, edges.piece.tolist(), edges.parameter.tolist(), strict=True)
+    return {
+        "closed": polygon.closed,
+        "curve": curve.describe(),
+        "vertices": polygon.vertices.tolist(),
+        "directions": edges.direction.tolist(),
+        "turning": _with_nulls(polygon.turning),
+        "declared": polygon.angle,
+        "deviation_mm": polygon.deviation,
+        "edges": [{"role": role.value, "contact": [piece, t]} for role, piece, t in contacts],
+    }
+
+
+def _with_nulls(values: Floats) -> list[float | None]:
+    return [None if math.isnan(value) else value for value in values.tolist()]
+
+
+def _member(design: Design) -> dict[str, Any]:
+    asked = design.project.members
+    return {
+        "kind": asked.section.kind,
+        "depth": asked.section.depth,
+        "thickness": asked.section.thickness,
+        "density_kg_m3": asked.density,
+    }
+
+
+def _node(design: Design) -> dict[str, Any]:
+    asked, drum = design.project.nodes, design.kit.drum
+    return {
+        "detail": asked.detail,
+        "retention": asked.retention,
+        "density_kg_m3": asked.density,
+        "drum_diameter_mm": drum.diameter,
+        "bore_mm": drum.bore,
+        "slot_width_mm": drum.slot_width,
+        "slot_floor_mm": drum.slot_floor,
+        "plate_end_mm": drum.plate_end,
+        "shoulder_mm": drum.shoulder,
+        "web_mm": drum.web,
+    }
+
+
+def _panel(design: Design) -> dict[str, Any]:
+    asked = design.project.panels
+    return {
+        "thickness_mm": asked.thickness,
+        "density_kg_m3": asked.density,
+        "gap_mm": asked.gap,
+        "underside_mm": design.kit.panels.underside,
+        "min_bearing_mm": asked.min_bearing,
+        "smallest_bearing_mm": float(design.kit.panels.bearing.min()),
+        "flippable": asked.flippable,
+    }
+
+
+def _counts(design: Design) -> dict[str, int]:
+    mesh = design.kit.mesh
+    return {
+        "parallels": mesh.shape[0],
+        "generatrices": mesh.shape[1],
+        "nodes": len(mesh.nodes),
+        "edges": len(mesh.edges),
+        "faces": len(mesh.face_ij),
+    }

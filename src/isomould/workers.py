@@ -1,0 +1,56 @@
+"""Independent work side by side on several processes; the results and their order do not depend on how many."""
+
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from typing import Protocol, TypeVar
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+_CHUNKS_PER_WORKER = 4
+
+
+class Spread(Protocol):
+    """Applies a function of a module to many items and gives the results in their order."""
+
+    def __call__(self, function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+        """Apply `function` to every item; the first exception is raised."""
+        ...
+
+
+def one_by_one(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+    """Apply a function to every item in this process.
+
+    >>> one_by_one(abs, [-1, 2])
+    [1, 2]
+    """
+    return [function(item) for item in items]
+
+
+@contextmanager
+def workers(jobs: int | None = None) -> Generator[Spread]:
+    """Give a `Spread` over `jobs` processes; None takes one per core, 1 stays in this process."""
+    count = jobs or os.cpu_count() or 1
+    if count == 1:
+        yield one_by_one
+        return
+    # Forked workers start at once; other systems have no safe fork.
+    context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    with ProcessPoolExecutor(count, context, initializer=_leave_signals_to_the_parent) as pool:
+        list(pool.map(abs, range(count)))
+
+        def spread(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+            size = max(1, len(items) // (_CHUNKS_PER_WORKER * count))
+            return list(pool.map(function, items, chunksize=size))
+
+        yield spread
+
+
+def _leave_signals_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)

@@ -1,0 +1,117 @@
+"""The command line as users meet it: a process, its exit code, its words."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from museum import SMALL, changed
+
+TRAPEZOIDS = {
+    "name": "two",
+    "sheet": [3000, 1500],
+    "gap": 5,
+    "trim": 10,
+    "parts": [{"id": k, "row": 0, "a": 900, "b": 700, "h": 600, "ol": 100, "orr": 100} for k in range(5)],
+}
+
+
+def run(*arguments, folder):
+    command = [sys.executable, "-m", "isomould", *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240, check=False)
+
+
+def test_new_check_and_list(tmp_path):
+    assert run("new", "roof", folder=tmp_path).returncode == 0
+    checked = run("check", "roof.toml", "--set", 'rail.curve.rise="8 m"', folder=tmp_path)
+    assert checked.returncode == 0
+    assert "680" in checked.stdout
+    assert "barrel-vault" in run("new", "--list", folder=tmp_path).stdout
+    assert [path.name for path in tmp_path.iterdir()] == ["roof.toml"]
+
+
+def test_new_copies_the_drawing_too(tmp_path):
+    assert run("new", "canopy", "--template", "canopy-from-dxf", folder=tmp_path).returncode == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["canopy-from-dxf.dxf", "canopy.toml"]
+    assert run("check", "canopy.toml", folder=tmp_path).returncode == 0
+
+
+def test_new_overwrites_nothing(tmp_path):
+    (tmp_path / "roof.toml").write_text("mine")
+    refused = run("new", "roof", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "roof.toml" in refused.stderr
+    assert (tmp_path / "roof.toml").read_text() == "mine"
+
+
+def test_build_and_verify(tmp_path, project_file):
+    project_file(SMALL)
+    built = run("build", "project.toml", "--effort", "quick", folder=tmp_path)
+    assert built.returncode == 0, built.stderr
+    assert (tmp_path / "outputs" / "small" / "certificate.json").exists()
+    assert "checks passed" in built.stdout
+    assert run("verify", "outputs/small", folder=tmp_path).returncode == 0
+    again = run("build", "project.toml", "--effort", "quick", folder=tmp_path)
+    assert again.returncode == 2
+    assert "--replace" in again.stderr
+    (tmp_path / "outputs" / "small" / "panels" / "P01.dxf").unlink()
+    broken = run("verify", "outputs/small", folder=tmp_path)
+    assert broken.returncode == 1
+    assert "P01" in broken.stdout
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"rail": {"divide": {"nodes": 1}}},
+        {"nodes": {"drum_diameter": 30}},
+        {"stock": {"sheets": []}, "panels": {"gap": 0}},
+    ],
+)
+def test_refusals_leave_the_disk_as_it_was(tmp_path, project_file, change):
+    project_file(changed(SMALL, **change))
+    refused = run("build", "project.toml", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "Traceback" not in refused.stderr
+    assert "Limit:" in refused.stderr
+    assert not any((tmp_path / "outputs").glob("*")) if (tmp_path / "outputs").exists() else True
+
+
+def test_panels_too_large_for_the_sheets_are_named(tmp_path, project_file):
+    stock = {**SMALL["stock"], "sheets": [{"name": "S", "width": 900, "height": 900}]}
+    project_file({**SMALL, "stock": stock})
+    refused = run("build", "project.toml", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "P0" in refused.stderr
+
+
+def test_unwritable_target_is_an_io_fault(tmp_path, project_file):
+    project_file(SMALL)
+    (tmp_path / "file").write_text("")
+    assert run("build", "project.toml", "--out", "file/inside", folder=tmp_path).returncode == 3
+
+
+def test_nest(tmp_path):
+    (tmp_path / "parts.json").write_text(json.dumps(TRAPEZOIDS))
+    nested = run("nest", "parts.json", "--out", "layout.json", folder=tmp_path)
+    assert nested.returncode == 0, nested.stderr
+    layout = json.loads((tmp_path / "layout.json").read_text())
+    assert layout["status"] == "complete"
+    assert sorted(placement["id"] for placement in layout["placements"]) == [0, 1, 2, 3, 4]
+
+
+def test_nest_refuses_what_fits_no_sheet(tmp_path):
+    parts = [{**TRAPEZOIDS["parts"][0], "id": "big", "a": 9000, "b": 8800}]
+    (tmp_path / "parts.json").write_text(json.dumps({**TRAPEZOIDS, "parts": parts}))
+    refused = run("nest", "parts.json", "--out", "layout.json", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "big" in refused.stderr
+    assert not (tmp_path / "layout.json").exists()
+
+
+@pytest.mark.parametrize("arguments", [(), ("build",), ("nest", "x.json"), ("check", "x.toml", "--sett", "a=1")])
+def test_usage_errors_exit_2_without_a_traceback(tmp_path, arguments):
+    result = run(*arguments, folder=tmp_path)
+    assert result.returncode in ({0, 2} if not arguments else {2})
+    assert "Traceback" not in result.stderr
