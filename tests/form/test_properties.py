@@ -3,10 +3,10 @@
 import numpy as np
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from museum import design
 
 from isomould.errors import Refused
 from isomould.form.mesh import NodeKind
+from museum import design
 
 
 @st.composite
@@ -26,7 +26,11 @@ def projects(draw):
     return {
         "schema": 1,
         "project": {"name": "Random"},
-        "rail": {"curve": loop if closed else arch, "outside": "outer" if closed else [0, 1], "divide": {"nodes": nodes}},
+        "rail": {
+            "curve": loop if closed else arch,
+            "outside": "outer" if closed else [0, 1],
+            "divide": {"nodes": nodes},
+        },
         "generatrix": {
             "curve": generatrix,
             "axes": "zd",

@@ -1,9 +1,9 @@
 """What the form stages refuse, and that the message names field, value, limit and way out."""
 
 import pytest
-from museum import SMALL, VAULT, changed, design, sphere
 
 from isomould.errors import Refused
+from museum import SMALL, VAULT, changed, design, sphere
 
 STRAIGHT = {"kind": "polyline", "points": [[0, 0], [8000, 0]]}
 KINKED = {"kind": "polyline", "points": [[0, 0], [4000, 2000], [8000, 0]]}

@@ -1,9 +1,9 @@
 """What the parts refuse, with the number that is needed."""
 
 import pytest
-from museum import SMALL, changed, design
 
 from isomould.errors import Refused
+from museum import SMALL, changed, design
 
 CASES = {
     "drum too small": ({"nodes": {"drum_diameter": 60}}, ["E-NODE-DRUM", "60.000 mm", "at least", "mm or more"]),

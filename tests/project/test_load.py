@@ -1,11 +1,11 @@
 """Project files: what is read, and what is refused with which words."""
 
 import pytest
-from museum import SMALL, TEMPLATES, changed
 
 from isomould.errors import Refused
 from isomould.project.load import load_project, validate
 from isomould.templates import template_names
+from museum import SMALL, TEMPLATES, changed
 
 
 @pytest.mark.parametrize("name", template_names())
