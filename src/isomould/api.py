@@ -1,7 +1,7 @@
 """The verbs of the command line as functions of the same names."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
@@ -14,6 +14,7 @@ from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Search
+from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder
 from isomould.project.load import load_project
 from isomould.templates import copy_template
@@ -91,15 +92,24 @@ def verify(folder: str | Path, jobs: int | None = None) -> Certificate:
         return verify_folder(Path(folder), spread=spread)
 
 
-def nest(
-    instance: str | Path,
-    out: str | Path,
-    effort: Effort = "normal",
-    should_stop: Callable[[], bool] | None = None,
-) -> Layout:
-    """Nest a part list of any origin and write the layout as JSON."""
+def nest(instance: str | Path, out: str | Path, effort: Effort = "normal", stop: Stop | None = None) -> Layout:
+    """Nest a part list of any origin and write the layout as JSON.
+
+    Parameters
+    ----------
+    instance
+        A part list (JSON).
+    out
+        The layout file; it is written whole or not at all.
+    effort
+        Iterations of the search.
+    stop
+        A time limit, or a way to interrupt: the best layout so far is written and marked.
+    """
+    stop = stop or Stop()
     given = read_instance(Path(instance))
-    layout = nest_sheets(given.parts, given.stock, Search(effort, should_stop=should_stop))
+    layout = nest_sheets(given.parts, given.stock, Search(effort, should_stop=stop))
+    layout = replace(layout, status="interrupted") if stop.interrupted else layout
     replace_file(Path(out), layout_to_json(layout).encode())
     return layout
 

@@ -5,7 +5,6 @@ Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 inte
 
 import signal
 import sys
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ import isomould
 from isomould.documents.numbers import format_number
 from isomould.errors import IsomouldError
 from isomould.nesting.search import Effort
+from isomould.nesting.stop import Stop
 from isomould.templates import describe_template, template_names
 from isomould.verify import Certificate
 
@@ -104,7 +104,8 @@ def verify(folder: Path) -> None:
 @click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
 def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) -> None:
     """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
-    stop = _Stop(time_limit)
+    stop = Stop(time_limit)
+    signal.signal(signal.SIGINT, lambda *_: stop.interrupt())
     layout = isomould.nest(instance, out, effort, stop)
     click.echo(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
@@ -112,22 +113,6 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
     )
     if stop.interrupted:
         sys.exit(_INTERRUPTED)
-
-
-class _Stop:
-    """Asked by the search whether to stop: after a time limit, or once Ctrl-C was pressed."""
-
-    def __init__(self, seconds: float | None) -> None:
-        self.deadline = None if seconds is None else time.monotonic() + seconds
-        self.interrupted = False
-        signal.signal(signal.SIGINT, self._interrupt)
-
-    def _interrupt(self, *_: object) -> None:
-        self.interrupted = True
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-
-    def __call__(self) -> bool:
-        return self.interrupted or (self.deadline is not None and time.monotonic() >= self.deadline)
 
 
 def _certificate_table(certificate: Certificate) -> Table:

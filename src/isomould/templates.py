@@ -1,5 +1,6 @@
 """The templates that ship with the program: complete, commented projects."""
 
+from itertools import takewhile
 from pathlib import Path
 
 from isomould.errors import OutputFault, Refused
@@ -23,8 +24,10 @@ def template_names() -> tuple[str, ...]:
 
 
 def describe_template(name: str) -> str:
-    """Give the first comment line of a template: what it is."""
-    return (template_folder() / f"{name}.toml").read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+    """Give what the first comment of a template says up to its first colon."""
+    text = (template_folder() / f"{name}.toml").read_text(encoding="utf-8")
+    comment = " ".join(line.lstrip("# ") for line in takewhile(lambda line: line.startswith("#"), text.splitlines()))
+    return comment.partition(":")[0]
 
 
 def copy_template(template: str, target: Path) -> tuple[Path, ...]:

@@ -1,8 +1,10 @@
 """The command line as users meet it: a process, its exit code, its words."""
 
 import json
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -15,6 +17,13 @@ TRAPEZOIDS = {
     "trim": 10,
     "parts": [{"id": k, "row": 0, "a": 900, "b": 700, "h": 600, "ol": 100, "orr": 100} for k in range(5)],
 }
+
+
+def many(count):
+    """A part list that a search works on for a while."""
+    first = TRAPEZOIDS["parts"][0]
+    parts = [{**first, "id": k, "a": 500 + 7 * k % 391, "b": 400, "h": 300 + k % 17} for k in range(count)]
+    return {**TRAPEZOIDS, "parts": [{**part, "ol": 20, "orr": part["a"] - part["b"] - 20} for part in parts]}
 
 
 def run(*arguments, folder):
@@ -99,6 +108,26 @@ def test_nest(tmp_path):
     layout = json.loads((tmp_path / "layout.json").read_text())
     assert layout["status"] == "complete"
     assert sorted(placement["id"] for placement in layout["placements"]) == [0, 1, 2, 3, 4]
+
+
+def test_an_interrupted_nest_keeps_the_best_layout(tmp_path):
+    """Ctrl-C while it searches: exit 130, and a whole layout that says so."""
+    (tmp_path / "parts.json").write_text(json.dumps(many(1500)))
+    command = [sys.executable, "-m", "isomould", "nest", "parts.json", "--out", "layout.json", "--effort", "best"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        time.sleep(5)
+        running.send_signal(signal.SIGINT)
+        _, errors = running.communicate(timeout=120)
+    assert running.returncode == 130, errors
+    layout = json.loads((tmp_path / "layout.json").read_text())
+    assert (layout["status"], layout["reproducible"]) == ("interrupted", False)
+    assert len(layout["placements"]) == 1500
+
+
+def test_a_time_limit_is_marked(tmp_path):
+    (tmp_path / "parts.json").write_text(json.dumps(many(150)))
+    assert run("nest", "parts.json", "--out", "layout.json", "--time-limit", "0", folder=tmp_path).returncode == 0
+    assert json.loads((tmp_path / "layout.json").read_text())["reproducible"] is False
 
 
 def test_nest_refuses_what_fits_no_sheet(tmp_path):

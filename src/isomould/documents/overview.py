@@ -1,7 +1,10 @@
 """Key figures and the checks made while building: what `check` prints and the first and last sheets show."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from isomould.documents.numbers import round_to
 from isomould.documents.table import Table, make_table
 from isomould.form.mesh import NodeKind
 from isomould.nesting.layout import BarLayout, Layout
@@ -9,13 +12,15 @@ from isomould.parts.kit import Kit
 from isomould.parts.solid import Solid
 
 Fact = tuple[str, float, str]
-"""Item, value, unit."""
+"""Item, value, unit; values are rounded for people to read."""
+
+_DECIMALS = 6
 
 
 def kit_facts(kit: Kit) -> tuple[Fact, ...]:
     """Counts, classes by kind, and how well beams meet."""
     mesh, nodes = kit.mesh, kit.nodes
-    return (
+    facts = (
         ("Parallels", mesh.shape[0], ""),
         ("Generatrices", mesh.shape[1], ""),
         ("Nodes", len(mesh.nodes), ""),
@@ -32,6 +37,11 @@ def kit_facts(kit: Kit) -> tuple[Fact, ...]:
         ("Panel undersides above the mesh", kit.panels.underside, "mm"),
         ("Chiral node classes", sum(hand != "none" for hand in nodes.handed), ""),
     )
+    return _rounded(facts)
+
+
+def _rounded(facts: Sequence[Fact]) -> tuple[Fact, ...]:
+    return tuple((item, float(round_to(np.array([float(value)]), _DECIMALS)[0]), unit) for item, value, unit in facts)
 
 
 def _node_facts(kit: Kit) -> tuple[Fact, ...]:
@@ -58,7 +68,7 @@ def layout_facts(sheets: Layout, bars: BarLayout | None) -> tuple[Fact, ...]:
     ]
     if bars is not None:
         facts += [("Bars", len(bars.bars), ""), (f"Lower bound of bars ({bars.bound_kind})", bars.bound, "")]
-    return tuple((item, float(value), unit) for item, value, unit in facts)
+    return _rounded(facts)
 
 
 def build_checks(kit: Kit, solids: tuple[Solid, ...], sheets: Layout) -> Table:

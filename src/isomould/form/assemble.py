@@ -9,7 +9,8 @@ from isomould.arrays import Bools, Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import Plane
 from isomould.errors import Note, Refused
-from isomould.form.division import Request, divide_curve, divide_for_edge_offset
+from isomould.form.division import Request, divide_curve
+from isomould.form.edge_offset import divide_for_edge_offset
 from isomould.form.lattice import KoebeLattice
 from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import make_profile

@@ -1,4 +1,4 @@
-"""Dividing a curve: the lattice that a request stands for, and the polygon that comes of it (geometry §2, §5)."""
+"""Dividing a curve: the lattice that a request stands for, and the polygon that comes of it (geometry §2)."""
 
 from dataclasses import dataclass, replace
 
@@ -9,9 +9,9 @@ from isomould.curves.turning import Arcs, Spans, arcs, spans, tangency
 from isomould.errors import Refused
 from isomould.form.chords import drawn_polygon, station_polygon
 from isomould.form.closing import closed_polygon, open_polygon
-from isomould.form.lattice import EvenLattice, KoebeLattice, Lattice, koebe_lattice
+from isomould.form.lattice import EvenLattice, Lattice
 from isomould.form.polygon import CurvePolygon, unit
-from isomould.form.settings import FormLimits, GeneratrixDivide, RailDivide, SlopePhase, Treatment
+from isomould.form.settings import FormLimits, GeneratrixDivide, RailDivide, Treatment
 from isomould.form.tangents import split_at_inflections, tangent_edges
 
 _WHOLE = 1e-9
@@ -40,37 +40,10 @@ def divide_curve(curve: PlanarCurve, request: Request) -> CurvePolygon:
         return station_polygon(curve, divide.stations, request.field)
     if not _asks_for_angles(divide):
         return drawn_polygon(curve, request.field)
-    turns = _smooth_spans(curve, request.field)
+    turns = smooth_spans(curve, request.field)
     if curve.closed:
         return _divide_closed(curve, turns, request)
     return _divide_open(curve, turns, request)
-
-
-def divide_for_edge_offset(
-    curve: PlanarCurve, turning: float, phase: str | SlopePhase, min_pole_angle: float, request: Request
-) -> tuple[CurvePolygon, KoebeLattice]:
-    """Divide an open generatrix into the slopes of an edge offset mesh (paper §4.3, geometry §5).
-
-    Parameters
-    ----------
-    curve
-        Generatrix in coordinates (d, z), its outside to the right.
-    turning
-        The rail's constant |α|, rad.
-    phase
-        "centre", "node", or the normal latitude of one edge.
-    min_pole_angle
-        How near (rad) an edge's normal may come to the rail's axis.
-    request
-        For the limits and field names.
-    """
-    turns = _upright(_smooth_spans(curve, request.field))
-    _refuse_straight(arcs(turns), request.field)
-    lattice = koebe_lattice(turning, np.radians(phase.slope_deg) if isinstance(phase, SlopePhase) else phase)
-    _refuse_pole(turns, lattice, min_pole_angle, request.field)
-    edges = tangent_edges(curve, turns, lattice, request.field)
-    edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
-    return open_polygon(curve, edges, request.limits.min_member, request.field), lattice
 
 
 def _asks_for_angles(divide: RailDivide | GeneratrixDivide) -> bool:
@@ -78,7 +51,7 @@ def _asks_for_angles(divide: RailDivide | GeneratrixDivide) -> bool:
     return divide.nodes is not None or divide.angle_deg is not None or per_arc is not None
 
 
-def _smooth_spans(curve: PlanarCurve, field: str) -> Spans:
+def smooth_spans(curve: PlanarCurve, field: str) -> Spans:
     """Spans of a curve without kinks (failure mode B1)."""
     turns = spans(curve)
     if len(turns.kink_angle):
@@ -96,7 +69,7 @@ def _smooth_spans(curve: PlanarCurve, field: str) -> Spans:
 
 def _divide_open(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePolygon:
     runs = arcs(turns)
-    _refuse_straight(runs, request.field)
+    refuse_straight(runs, request.field)
     lattice = _open_lattice(turns, runs, request)
     _check_angle(lattice.step, request)
     _refuse_incommensurable(turns, runs, lattice, request)
@@ -224,13 +197,6 @@ def _cut_open(turns: Spans, span: int, parameter: float, direction: float) -> Sp
     )
 
 
-def _upright(turns: Spans) -> Spans:
-    """Bring the directions of a generatrix into the branch around π/2, where normals have latitude 0."""
-    middle = (turns.theta0.min() + turns.theta1.max()) / 2
-    shift = 2 * np.pi * np.rint((np.pi / 2 - middle) / (2 * np.pi))
-    return replace(turns, theta0=turns.theta0 + shift, theta1=turns.theta1 + shift)
-
-
 def _check_angle(step: float, request: Request) -> None:
     if np.degrees(step) > request.limits.max_turning_deg:
         raise Refused(
@@ -242,7 +208,7 @@ def _check_angle(step: float, request: Request) -> None:
         )
 
 
-def _refuse_straight(runs: Arcs, field: str) -> None:
+def refuse_straight(runs: Arcs, field: str) -> None:
     if not np.any(runs.sign):
         raise Refused(
             "E-CURVE-STRAIGHT",
@@ -283,21 +249,3 @@ def _refuse_incommensurable(turns: Spans, runs: Arcs, lattice: Lattice, request:
             f"Nearest admissible angles by arc: {', '.join(f'{angle:.6f}°' for angle in near)}; "
             "or inflections = 'nearest'.",
         )
-
-
-def _refuse_pole(turns: Spans, lattice: KoebeLattice, min_angle: float, field: str) -> None:
-    """Refuse normals too near the rail's axis, with the rows that it would take (failure mode C1)."""
-    slopes = np.concatenate([turns.theta0, turns.theta1]) - np.pi / 2
-    steepest = float(np.abs(slopes).max())
-    limit = np.pi / 2 - min_angle
-    if steepest <= limit:
-        return
-    rows = int(np.ceil((np.arctanh(np.tan(limit / 2)) - lattice.start) / lattice.step))
-    raise Refused(
-        "E-GENERATRIX-POLE",
-        "generatrix.curve",
-        f"its normal comes within {90 - np.degrees(steepest):.4f}° of the rail's axis, a pole that an edge offset mesh "
-        f"never reaches ({rows} rows lead from the phase to the limit)",
-        f"at least surface.min_pole_angle_deg = {np.degrees(min_angle):g}°",
-        f"Cut the generatrix where its normal's latitude is {np.degrees(limit):g}°.",
-    )

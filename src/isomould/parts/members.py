@@ -148,7 +148,7 @@ def _cut(
     start, end = (_end(e, h, depth, drum) for e, h in zip(elevation, height, strict=True))
     end = np.stack([length - end[::-1, 0], end[::-1, 1]], axis=-1)
     bottom, top = (round_um(end[k]) - round_um(start[-1 - k]) for k in (0, -1))
-    _refuse_short(min(bottom[0], top[0]), settings, where)
+    _refuse_short(float(min(bottom[0], top[0])), length, settings, where)
     outline = round_outline(np.concatenate([start, end]))
     return MemberShape(
         outline=outline,
@@ -176,13 +176,14 @@ def _end(elevation: float, height: float, depth: float, drum: Drum) -> Floats:
     return np.stack([r * cosine + z * sine, -r * sine + z * cosine], axis=-1)
 
 
-def _refuse_short(clear: float, settings: MemberSettings, where: str) -> None:
+def _refuse_short(clear: float, length: float, settings: MemberSettings, where: str) -> None:
     if clear < settings.min_clear:
         raise Refused(
             "E-MEMBER-SHORT",
             f"members ({where})",
-            f"{clear:.3f} mm of the member are left between its end cuts",
-            f"at least members.min_clear = {settings.min_clear:g} mm",
+            f"{clear:.3f} mm of a system line of {length:.3f} mm are left between the end cuts",
+            f"at least members.min_clear = {settings.min_clear:g} mm: a system line of "
+            f"{length + settings.min_clear - clear:.3f} mm",
             "Divide the curves more coarsely, use smaller drums, or lower members.min_clear.",
         )
 

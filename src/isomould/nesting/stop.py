@@ -1,0 +1,21 @@
+"""Asked by a search whether to stop: after a time limit, or once somebody interrupted it."""
+
+import time
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Stop:
+    """The one value here that changes: `interrupt` may be called from a signal handler at any moment."""
+
+    seconds: float | None = None
+    interrupted: bool = False
+    started: float = field(default_factory=time.monotonic)
+
+    def interrupt(self) -> None:
+        """Ask for an end at the next checkpoint."""
+        self.interrupted = True
+
+    def __call__(self) -> bool:
+        """Tell whether the search should end."""
+        return self.interrupted or (self.seconds is not None and time.monotonic() - self.started >= self.seconds)
