@@ -105,7 +105,7 @@ def verify(folder: Path) -> None:
 def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) -> None:
     """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
     stop = Stop(time_limit)
-    signal.signal(signal.SIGINT, lambda *_: stop.interrupt())
+    signal.signal(signal.SIGINT, stop.interrupt)
     layout = isomould.nest(instance, out, effort, stop)
     click.echo(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "

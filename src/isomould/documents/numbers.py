@@ -5,6 +5,7 @@ import numpy as np
 from isomould.arrays import Floats
 
 _EXACT = 2.0**52
+"""Beyond it a float resolves no fractions, and rounding would only add noise."""
 _SNAP = 3
 _SIGNIFICANT = 6
 
@@ -30,13 +31,10 @@ def round_to(values: Floats, decimals: int | None) -> Floats:
     """
     if decimals is None:
         return np.array([float(f"{value:.{_SIGNIFICANT}g}") for value in values], dtype=float)
-    return _round(_round(values, decimals + _SNAP), decimals)
-
-
-def _round(values: Floats, decimals: int) -> Floats:
-    """Round where a float resolves the decimals; beyond that rounding would only add noise."""
-    resolved = np.abs(values) * 10.0**decimals < _EXACT
-    return np.where(resolved, np.round(values, decimals), values) + 0.0
+    fine = values * 10.0 ** (decimals + _SNAP)
+    resolved = np.abs(fine) < _EXACT
+    whole = np.rint(np.where(resolved, np.rint(fine) / 10.0**_SNAP, values * 10.0**decimals))
+    return np.where(np.abs(whole) < _EXACT, whole / 10.0**decimals, values) + 0.0
 
 
 def format_number(value: float, decimals: int | None = None) -> str:

@@ -209,6 +209,7 @@ def _check_angle(step: float, request: Request) -> None:
 
 
 def refuse_straight(runs: Arcs, field: str) -> None:
+    """Refuse curves that do not turn at all."""
     if not np.any(runs.sign):
         raise Refused(
             "E-CURVE-STRAIGHT",

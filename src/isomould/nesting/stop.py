@@ -12,8 +12,8 @@ class Stop:
     interrupted: bool = False
     started: float = field(default_factory=time.monotonic)
 
-    def interrupt(self) -> None:
-        """Ask for an end at the next checkpoint."""
+    def interrupt(self, *_: object) -> None:
+        """Ask for an end at the next checkpoint; takes and ignores what a signal handler is given."""
         self.interrupted = True
 
     def __call__(self) -> bool:

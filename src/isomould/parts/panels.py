@@ -13,7 +13,7 @@ from isomould.arrays import Bools, Floats, Ints, read_only
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh
 from isomould.parts.arms import normalised
-from isomould.parts.congruence import Classes, agrees_with_mirror, classify
+from isomould.parts.congruence import Classes, agrees_with_mirror, classify, smallest
 from isomould.parts.marks import locations, marks
 from isomould.parts.nodes import Handed
 from isomould.parts.outline import round_outline
@@ -236,13 +236,13 @@ def _first_corner(variant: Ints) -> Ints:
 
 
 def _handedness(corners: Floats, tolerance: Floats, *, flippable: bool) -> tuple[Handed, ...]:
-    """Chirality (k,) of the classes: of a mirrored pair, the one with the larger leg first is L."""
-    numbers, _ = _variants(corners, flippable=False)
+    """Chirality (k,) of the classes: of a mirrored pair, the one with the smaller description is L."""
+    numbers, labels = _variants(corners, flippable=False)
     mirror, tags = _variants(corners[:, ::-1], flippable=False)
-    tags = np.concatenate([tags[:, :1], tags], axis=1)
-    same = agrees_with_mirror(numbers[:, 0], mirror, tags, tolerance) | flippable
-    left = numbers[:, 0, 3] >= numbers[:, 0, 1]
-    return tuple("none" if same[k] else ("L" if left[k] else "R") for k in range(len(corners)))
+    same = agrees_with_mirror(numbers[:, 0], mirror, np.concatenate([labels[:, :1], tags], axis=1), tolerance)
+    both = smallest(np.concatenate([numbers, mirror], axis=1), np.concatenate([labels, tags], axis=1))
+    left = both < numbers.shape[1]
+    return tuple("none" if same[k] or flippable else ("L" if left[k] else "R") for k in range(len(corners)))
 
 
 def _flatness(mesh: Mesh) -> Floats:

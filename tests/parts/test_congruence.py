@@ -1,0 +1,59 @@
+"""Classes: complete linkage, variants, mirror images."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from isomould.parts.congruence import classify
+from isomould.parts.panels import _handedness
+
+
+def singles(values):
+    numbers = np.array(values, dtype=float)[:, None, None]
+    return numbers, np.zeros((len(values), 1, 1), dtype=np.int64)
+
+
+def test_no_chain_of_neighbours():
+    """Steps of 0.4 at a tolerance of 0.5 never merge 1000.0 with 1002.8 (failure mode E1)."""
+    values = 1000 + 0.4 * np.arange(8)
+    classes = classify(*singles(values), np.array([0.5]))
+    for k in range(len(classes.representative)):
+        assert np.ptp(values[classes.of == k]) <= 0.5
+
+
+@given(st.lists(st.floats(0, 20), min_size=1, max_size=60), st.floats(0.01, 3))
+def test_spread_within_a_class_keeps_the_tolerance(values, tolerance):
+    classes = classify(*singles(values), np.array([tolerance]))
+    assert classes.deviation.max() <= tolerance
+    for k in range(len(classes.representative)):
+        assert np.ptp(np.array(values)[classes.of == k]) <= tolerance
+
+
+def test_variants_of_one_thing_are_one_class():
+    """A description read from another start is the same thing, and says which variant agrees."""
+    row = np.array([1.0, 2.0, 3.0])
+    numbers = np.stack([np.stack([np.roll(np.roll(row, s), -k) for k in range(3)]) for s in range(3)])
+    classes = classify(numbers, np.zeros((3, 3, 1), dtype=np.int64), np.full(3, 0.1))
+    assert len(classes.representative) == 1
+    assert classes.variant.tolist() == [0, 1, 2]
+
+
+def test_classes_are_numbered_by_their_first_instance():
+    classes = classify(*singles([7.0, 3.0, 7.0, 1.0]), np.array([0.1]))
+    assert classes.of.tolist() == [0, 1, 0, 2]
+    assert classes.quantity.tolist() == [2, 1, 1]
+
+
+def test_labels_keep_apart_what_numbers_would_merge():
+    numbers = np.zeros((2, 1, 1))
+    assert len(classify(numbers, np.array([[[0]], [[1]]]), np.array([1.0])).representative) == 2
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_mirrored_panels_never_share_a_letter(turn):
+    """Whatever corner the first piece of a class starts at, a mirrored pair is L and R."""
+    panel = np.array([[0.0, 0.0], [1000.0, 0.0], [900.0, 500.0], [250.0, 500.0]])
+    mirrored = (panel * [-1, 1])[::-1]
+    both = np.stack([np.roll(panel, turn, axis=0), mirrored])
+    assert sorted(_handedness(both, np.full(6, 0.1), flippable=False)) == ["L", "R"]
