@@ -41,7 +41,12 @@ def kit_facts(kit: Kit) -> tuple[Fact, ...]:
 
 
 def _rounded(facts: Sequence[Fact]) -> tuple[Fact, ...]:
-    return tuple((item, float(round_to(np.array([float(value)]), _DECIMALS)[0]), unit) for item, value, unit in facts)
+    """Round measured values; counts stay whole numbers."""
+    return tuple((item, value if isinstance(value, int) else _round(value), unit) for item, value, unit in facts)
+
+
+def _round(value: float) -> float:
+    return float(round_to(np.array([value]), _DECIMALS)[0])
 
 
 def _node_facts(kit: Kit) -> tuple[Fact, ...]:
