@@ -6,8 +6,12 @@ import signal
 import sys
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import partial
 from typing import Protocol, TypeVar
+
+from isomould.errors import IsomouldError
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -43,12 +47,22 @@ def workers(jobs: int | None = None) -> Generator[Spread]:
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
     with ProcessPoolExecutor(count, context, initializer=_leave_signals_to_the_parent) as pool:
         list(pool.map(abs, range(count)))
+        try:
+            yield partial(_spread, pool, count)
+        except BrokenProcessPool as error:
+            message = "E-WORKERS: a worker process was ended from outside, perhaps for want of memory. Try --jobs 1."
+            raise IsomouldError(message) from error
+        except KeyboardInterrupt:
+            for worker in multiprocessing.active_children():
+                worker.terminate()
+            raise
 
-        def spread(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
-            size = max(1, len(items) // (_CHUNKS_PER_WORKER * count))
-            return list(pool.map(function, items, chunksize=size))
 
-        yield spread
+def _spread(
+    pool: ProcessPoolExecutor, count: int, function: Callable[[Item], Result], items: Sequence[Item]
+) -> list[Result]:
+    size = max(1, len(items) // (_CHUNKS_PER_WORKER * count))
+    return list(pool.map(function, items, chunksize=size))
 
 
 def _leave_signals_to_the_parent() -> None:

@@ -139,6 +139,21 @@ def test_nest_refuses_what_fits_no_sheet(tmp_path):
     assert not (tmp_path / "layout.json").exists()
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_build_leaves_nothing(tmp_path, number):
+    run("new", "vault", folder=tmp_path)
+    command = [sys.executable, "-m", "isomould", "build", "vault.toml", "--jobs", "2"]
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as running:
+        for line in running.stderr:
+            if line.startswith("nesting"):
+                break
+        running.send_signal(number)
+        errors = running.communicate(timeout=60)[1]
+    assert running.returncode == 130
+    assert "Traceback" not in errors
+    assert [path for path in (tmp_path / "outputs").iterdir() if path.suffix != ".lock"] == []
+
+
 @pytest.mark.parametrize("arguments", [(), ("build",), ("nest", "x.json"), ("check", "x.toml", "--sett", "a=1")])
 def test_usage_errors_exit_2_without_a_traceback(tmp_path, arguments):
     result = run(*arguments, folder=tmp_path)
