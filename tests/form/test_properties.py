@@ -1,6 +1,7 @@
 """Random designs: planarity, trapezoids, torsion and classes hold whatever the curves are."""
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
@@ -58,9 +59,7 @@ def corner_angles(mesh, node_arms, arms):
     return np.arctan2(sine, np.einsum("ijk,ijk->ij", direction, following))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
-@given(projects())
-def test_every_design_keeps_what_the_paper_promises(data):
+def check_promises(data):
     try:
         result = design(data)
     except Refused:
@@ -84,3 +83,19 @@ def test_every_design_keeps_what_the_paper_promises(data):
             assert len(set(row[keep & (np.sign(turning) == sign)])) <= 1
     if data["surface"]["kind"] == "edge-offset":
         assert kit.mismatch.max() < 1e-9
+
+
+PATIENT = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+
+
+@settings(PATIENT, max_examples=300)
+@given(projects())
+def test_every_design_keeps_what_the_paper_promises(data):
+    check_promises(data)
+
+
+@pytest.mark.long
+@settings(PATIENT, max_examples=2000)
+@given(projects())
+def test_two_thousand_designs_keep_them_too(data):
+    check_promises(data)
