@@ -85,8 +85,9 @@ SMALL: dict[str, Any] = {
         "sheets": [{"name": "Sheet", "width": "4 m", "height": "2.5 m", "price": 100}],
         "bars": [{"section": "FL200*12", "length": "6 m", "price": 80}],
     },
+    "deliver": {"strips": ["generatrix", "parallel"]},
 }
-"""A vault of 8 × 6 nodes with sheets and bars in stock: quick to build, everything in it."""
+"""A vault of 8 × 6 nodes with sheets, bars and strips: quick to build, everything in it."""
 
 
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:

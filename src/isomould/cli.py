@@ -3,6 +3,7 @@
 Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 interrupted.
 """
 
+import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -106,6 +107,7 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
     """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
     stop = Stop(time_limit)
     signal.signal(signal.SIGINT, stop.interrupt)
+    click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
     layout = isomould.nest(instance, out, effort, stop)
     click.echo(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
@@ -156,7 +158,13 @@ class _Progress:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; every failure that users can meet is one message and an exit code."""
     signal.signal(signal.SIGTERM, _terminate)
-    sys.exit(_run(arguments))
+    code = _run(arguments)
+    if code == _INTERRUPTED:
+        # Threads of a pool of workers may hold locks that the interrupt left closed: do not wait for them.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 def _terminate(*_: Any) -> None:

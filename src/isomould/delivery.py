@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from isomould.documents.overview import build_checks, kit_facts, layout_facts
 from isomould.documents.schedules import part_tables
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.stock_tables import bar_table, sheet_table
+from isomould.documents.strips import strip_drawing, strip_table
 from isomould.documents.table import Table
 from isomould.documents.totals import make_summary
 from isomould.form.mesh import Family
@@ -26,6 +28,7 @@ from isomould.parts.panels import PanelParts
 from isomould.parts.plates import extrude
 from isomould.parts.poses import member_poses, node_poses, panel_poses
 from isomould.parts.solid import Solid
+from isomould.parts.strips import Strip, unroll_strips
 from isomould.record import describe_design
 from isomould.workers import Spread
 from isomould.writers.csv import write_csv
@@ -44,6 +47,12 @@ class Delivery:
     solids: tuple[Solid, ...]
     cutting: Cutting
 
+    @cached_property
+    def strips(self) -> tuple[Strip, ...]:
+        """The strips that the project asks for, unrolled."""
+        mesh, asked = self.design.kit.mesh, self.design.project.deliver.strips
+        return tuple(strip for along in asked for strip in unroll_strips(mesh, along))
+
 
 def make_tables(delivery: Delivery) -> tuple[Table, ...]:
     """Give the tables of the schedules, in the order of the workbook; summary and checks apart."""
@@ -51,7 +60,9 @@ def make_tables(delivery: Delivery) -> tuple[Table, ...]:
     settings = kit_settings(design.project)
     tables = part_tables(design.kit, settings, delivery.solids, cutting.placed, cutting.positions)
     sheets = sheet_table(cutting.sheets, cutting.stock)
-    return (*tables, sheets, *((bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()))
+    bars = (bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()
+    strips = (strip_table(delivery.strips),) if delivery.strips else ()
+    return (*tables, sheets, *bars, *strips)
 
 
 def write_delivery(folder: Path, delivery: Delivery, tables: tuple[Table, ...], spread: Spread) -> None:
@@ -61,6 +72,9 @@ def write_delivery(folder: Path, delivery: Delivery, tables: tuple[Table, ...], 
     _write_nodes(folder / "nodes", delivery)
     _write_tables(folder, delivery, tables)
     drawing = setting_out_drawing(delivery.design.kit, delivery.design.project.members.section.depth)
+    for strip in delivery.strips:
+        layers = delivery.design.project.deliver.layers
+        write_dxf(folder / "strips" / f"{strip.name}.dxf", strip_drawing(strip), layers)
     write_dxf(folder / "setting-out.dxf", drawing, delivery.design.project.deliver.layers)
 
 

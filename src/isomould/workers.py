@@ -45,17 +45,21 @@ def workers(jobs: int | None = None) -> Generator[Spread]:
         return
     # Forked workers start at once; other systems have no safe fork.
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
-    with ProcessPoolExecutor(count, context, initializer=_leave_signals_to_the_parent) as pool:
+    pool = ProcessPoolExecutor(count, context, initializer=_leave_signals_to_the_parent)
+    try:
         list(pool.map(abs, range(count)))
-        try:
-            yield partial(_spread, pool, count)
-        except BrokenProcessPool as error:
-            message = "E-WORKERS: a worker process was ended from outside, perhaps for want of memory. Try --jobs 1."
-            raise IsomouldError(message) from error
-        except KeyboardInterrupt:
-            for worker in multiprocessing.active_children():
-                worker.terminate()
-            raise
+        yield partial(_spread, pool, count)
+        pool.shutdown()
+    except BrokenProcessPool as error:
+        message = "E-WORKERS: a worker process was ended from outside, perhaps for want of memory. Try --jobs 1."
+        raise IsomouldError(message) from error
+    except KeyboardInterrupt:
+        # The interrupt may have struck inside the pool's own locks: waiting for it could last for ever.
+        for worker in multiprocessing.active_children():
+            worker.terminate()
+        raise
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _spread(

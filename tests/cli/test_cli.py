@@ -115,7 +115,8 @@ def test_an_interrupted_nest_keeps_the_best_layout(tmp_path):
     (tmp_path / "parts.json").write_text(json.dumps(many(1500)))
     command = [sys.executable, "-m", "isomould", "nest", "parts.json", "--out", "layout.json", "--effort", "best"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
-        time.sleep(5)
+        assert b"nesting" in running.stderr.readline()
+        time.sleep(1)
         running.send_signal(signal.SIGINT)
         _, errors = running.communicate(timeout=120)
     assert running.returncode == 130, errors

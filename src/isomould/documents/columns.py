@@ -49,6 +49,7 @@ TABLES: dict[str, tuple[str, ...]] = {
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",
+        "strips": "strip along pieces length_mm width_mm sagitta_mm area_m2 file",
         "checks": "id what count worst where limit unit status reason",
     }.items()
 }
