@@ -1,6 +1,5 @@
 """Lengths with units, parsed once at the border: inside the program every length is in mm."""
 
-import math
 import re
 from fractions import Fraction
 from typing import Annotated, Literal
@@ -10,6 +9,12 @@ from pydantic import AfterValidator, BeforeValidator, Strict
 LengthUnit = Literal["mm", "cm", "m", "in", "ft"]
 
 MM_PER_UNIT: dict[str, float] = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+
+LARGEST = 1e12
+"""Of numbers without a unit: coordinates, weights, angles, prices."""
+
+LONGEST = 1e9
+"""Lengths beyond a thousand kilometres, in mm, are slips of the pen."""
 
 _QUANTITY = re.compile(
     r"\s*(?P<sign>[+-]?)(?:(?P<whole>\d+)\s+)?(?P<number>\d+/[1-9]\d*|\d*\.?\d+(?:[eE][+-]?\d+)?|\d+\.)"
@@ -35,24 +40,25 @@ def parse_length(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         message = f"{value!r} is not a length; write a number in mm or a string such as '24 m'"
         raise ValueError(message)
-    return _finite(float(value), value)
+    return _finite(value, value)
 
 
-def _parse_text(text: str) -> float:
+def _parse_text(text: str) -> Fraction:
     match = _QUANTITY.fullmatch(text)
     if match is None or (match["whole"] and "/" not in match["number"]):
         message = f"{text!r} is not a length; write a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
         raise ValueError(message)
     number = Fraction(match["number"]) + Fraction(match["whole"] or 0)
-    sign = -1.0 if match["sign"] == "-" else 1.0
-    return sign * float(number * Fraction(str(MM_PER_UNIT[match["unit"]])))
+    sign = -1 if match["sign"] == "-" else 1
+    return sign * number * Fraction(str(MM_PER_UNIT[match["unit"]]))
 
 
-def _finite(length: float, value: object) -> float:
-    if not math.isfinite(length):
-        message = f"{value!r} is not a finite length"
+def _finite(length: float | Fraction, value: object) -> float:
+    """Compare before converting: whole numbers and fractions may be larger than any float."""
+    if not abs(length) <= LONGEST:
+        message = f"{str(value)[:24]!r} is not a length that can be built; at most {LONGEST:g} mm"
         raise ValueError(message)
-    return length
+    return float(length)
 
 
 def _positive(value: float) -> float:
@@ -69,11 +75,18 @@ def _not_negative(value: float) -> float:
     return value
 
 
-Number = Annotated[float, Strict()]
-"""A finite float (or integer), never a bool or a string."""
+def _sized(value: float) -> float:
+    if abs(value) > LARGEST:
+        message = f"must lie between -{LARGEST:g} and {LARGEST:g}"
+        raise ValueError(message)
+    return value
+
+
+Number = Annotated[float, Strict(), AfterValidator(_sized)]
+"""A float (or integer) whose square is far from overflowing, never a bool or a string."""
 PositiveNumber = Annotated[Number, AfterValidator(_positive)]
 NonNegativeNumber = Annotated[Number, AfterValidator(_not_negative)]
-Count = Annotated[int, Strict()]
+Count = Annotated[int, Strict(), AfterValidator(_sized)]
 """An integer, never a bool, a float or a string."""
 Flag = Annotated[bool, Strict()]
 Length = Annotated[float, BeforeValidator(parse_length)]

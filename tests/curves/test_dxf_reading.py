@@ -429,6 +429,7 @@ def bad_knots(pen):
         (lambda pen: pen.line((0, 0), (float("nan"), 9)), "ENTITY", "a number nan"),
         (lambda pen: pen.line((0, 0), (float("inf"), 9)), "ENTITY", "a number inf"),
         (lambda pen: pen.line((0, 0), (1e300, 9)), "ENTITY", "1e+300"),
+        (lambda pen: pen.lwpolyline([(float("inf"), 0), (9, 9)]), "ENTITY", "a number"),
         (lambda pen: pen.circle((0, 0), 0), "ENTITY", "radius 0"),
         (lambda pen: pen.circle((0, 0), -5), "ENTITY", "radius -5"),
         (smoothed, "ENTITY", "smoothed polyline"),

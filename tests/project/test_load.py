@@ -33,6 +33,24 @@ BROKEN = {
     "wrong unit": ({"panels": {"gap": "12 cubits"}}, ["panels.gap", "12 cubits", "mm, cm, m, in, ft"]),
     "decimal comma": ({"panels": {"gap": "12,5 mm"}}, ["panels.gap", "12,5 mm"]),
     "a flag for a length": ({"panels": {"gap": True}}, ["panels.gap", "True is not a length"]),
+    "a length beyond floats": ({"panels": {"gap": "1e400 m"}}, ["panels.gap", "1e400 m", "at most 1e+09 mm"]),
+    "a whole number beyond floats": ({"panels": {"gap": 10**400}}, ["panels.gap", "at most 1e+09 mm"]),
+    "a gap that is no gap": ({"panels": {"spacer": 1e15}}, ["panels.spacer", "at most 1e+09 mm"]),
+    "a number whose square overflows": (
+        {"rail": {"curve": {"kind": "polyline", "points": [[0, 0], [1e300, 9]]}}},
+        ["rail.curve.points.1.0", "1e+300: must lie between"],
+    ),
+    "a count beyond floats": ({"rail": {"divide": {"nodes": 10**400}}}, ["rail.divide.nodes"]),
+    "a list that is too short": ({"generatrix": {"origin": []}}, ["generatrix.origin.0", "missing"]),
+    "a number for a date": ({"project": {"date": 0}}, ["project.date", "0 is not a date"]),
+    "a pole beyond the equator": (
+        {"surface": {"kind": "isogonal", "min_pole_angle_deg": 90}},
+        ["min_pole_angle_deg", "less than 90"],
+    ),
+    "waves without end": (
+        {"rail": {"curve": {"kind": "sine", "amplitude": 1, "wavelength": 9, "waves": 1e9}}},
+        ["rail.curve.waves", "1000"],
+    ),
     "negative": ({"panels": {"thickness": -3}}, ["panels.thickness", "-3"]),
     "two ways to divide": ({"rail": {"divide": {"nodes": 3, "angle_deg": 4}}}, ["nodes and angle_deg exclude"]),
     "float for a count": ({"rail": {"divide": {"nodes": 3.5}}}, ["rail.divide.nodes", "3.5"]),
@@ -76,6 +94,8 @@ def test_all_findings_are_told_at_once():
         (b"schema = ", "TOML"),
         (b"a = 1\na = 2", "TOML"),
         (b"x = nan", "unknown key"),
+        (b"x = " + b"9" * 5000, "TOML"),
+        (b"x = " + b"[" * 100_000, "TOML"),
         (b"", "missing"),
     ],
 )

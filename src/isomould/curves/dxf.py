@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 from ezdxf.document import Drawing as Document
 from ezdxf.entities.dxfgfx import DXFGraphic
 from ezdxf.filemanagement import readfile
@@ -222,7 +223,7 @@ def _traced(found: _Found, factor: float, field: str) -> Traced:
         limit = f"visible {', '.join(sorted(TRACERS))}"
         way_out = "Move it to another layer, or convert it."
         raise Refused(code="E-DXF-ENTITY", field=field, found=name, limit=limit, way_out=way_out)
-    with _guarded("E-DXF-ENTITY", field, name):
+    with _guarded("E-DXF-ENTITY", field, name), np.errstate(all="ignore"):
         drawn = [shape._replace(anchors=factor * shape.anchors) for shape in _located(trace, entity, field)]
     return Traced(name, drawn, says_closed(entity))
 

@@ -131,7 +131,7 @@ class SineSettings(Settings):
     kind: Literal["sine"]
     amplitude: PositiveLength
     wavelength: PositiveLength
-    waves: PositiveNumber
+    waves: Annotated[PositiveNumber, Field(le=1000)]
     phase_deg: Number = 0.0
 
 

@@ -4,7 +4,7 @@ import datetime
 import unicodedata
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from isomould.settings import Settings
 
@@ -19,6 +19,14 @@ def _one_line(text: str) -> str:
     return unicodedata.normalize("NFC", text)
 
 
+def _drawn_up(value: object) -> object:
+    """Numbers are no dates: read as seconds since 1970, they would pass for one."""
+    if isinstance(value, int | float):
+        message = f"{value!r} is not a date; write it as 2026-11-02"
+        raise ValueError(message)
+    return value
+
+
 Text = Annotated[str, Field(max_length=_LONGEST), AfterValidator(_one_line)]
 """One line of printable text."""
 
@@ -31,4 +39,4 @@ class ProjectInfo(Settings):
     client: Text = ""
     revision: Text = ""
     author: Text = ""
-    date: datetime.date | None = None
+    date: Annotated[datetime.date | None, BeforeValidator(_drawn_up)] = None

@@ -75,7 +75,7 @@ class SurfaceSettings(Settings):
     """The `[surface]` table."""
 
     kind: Kind = "isogonal"
-    min_pole_angle_deg: PositiveNumber = 5.0
+    min_pole_angle_deg: Annotated[PositiveNumber, Field(lt=90)] = 5.0
 
 
 class FormLimits(Settings):

@@ -92,7 +92,7 @@ def _parse(source: bytes, path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         found, way_out = f"byte {error.start} is not UTF-8", "Save the file as UTF-8."
         raise Refused("E-PROJECT-TEXT", str(path), found, "UTF-8 text", way_out) from None
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # numbers of thousands of digits and deep nests among them
         raise Refused("E-PROJECT-TOML", str(path), str(error), "valid TOML", "Mend the line.") from None
 
 
@@ -153,8 +153,13 @@ def _locate(location: Sequence[str | int], data: Mapping[str, Any]) -> tuple[lis
         if here or (isinstance(part, int) and isinstance(place, list)):
             siblings = [str(key) for key in place] if isinstance(place, dict) else []
             path.append(str(part))
-            place = place.get(part) if isinstance(place, dict) else place[int(part)]
+            place = place.get(part) if isinstance(place, dict) else _item(place, int(part))
     return path, siblings
+
+
+def _item(values: list[Any], number: int) -> Any:
+    """Item of a list, None beyond its end: a list that is too short is itself the finding."""
+    return values[number] if number < len(values) else None
 
 
 def _known_keys(tables: Sequence[str]) -> list[str]:
