@@ -231,6 +231,35 @@ class TestOracleH:
         assert one.kit.mesh.nodes * 2 == pytest.approx(two.kit.mesh.nodes, abs=1e-6)
 
 
+class TestStadium:
+    """Two straight sides and two half circles: tangents along the straights belong to them, not to the arcs' ends."""
+
+    def rail(self, points, **divide):
+        return changed(
+            VAULT,
+            rail={
+                "curve": {"kind": "polyline", "units": "m", "points": points, "bulges": [0, 1, 0, 1], "closed": True},
+                "plane": "xy",
+                "outside": "outer",
+                "divide": divide,
+            },
+            generatrix={"curve": {"kind": "arc", "span": "6 m", "rise": "1 m"}, "divide": {"nodes": 5}},
+        )
+
+    @pytest.mark.parametrize("nodes", [24, 40])
+    def test_every_side_is_one_edge(self, nodes):
+        polygon = design(self.rail([[-10, -8], [10, -8], [10, 8], [-10, 8]], nodes=nodes)).form.rail
+        lengths = np.sort(np.linalg.norm(polygon.vertices - np.roll(polygon.vertices, 1, axis=0), axis=1))
+        assert len(lengths) == nodes
+        short = 2 * 8000 * np.tan(np.pi / nodes)
+        assert lengths[:-2] == pytest.approx(short, abs=1e-6)
+        assert lengths[-2:] == pytest.approx(20_000 + short, abs=1e-6)
+
+    def test_an_upright_stadium(self):
+        polygon = design(self.rail([[8, -10], [8, 10], [-8, 10], [-8, -10]], nodes=24, first_deg=90)).form.rail
+        assert polygon.deviation == pytest.approx(8000 * (1 / np.cos(np.pi / 24) - 1), abs=1e-6)
+
+
 def test_both_tolerances_give_the_same_classes_on_every_template_shape():
     """Exactness: rounding noise never makes a class."""
     for data in (VAULT, EDGE_OFFSET_VAULT, sphere(15, 60)):

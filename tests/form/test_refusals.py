@@ -62,6 +62,18 @@ CASES = {
     "short members": (changed(SMALL, tolerances={"min_member": 3000}), ["E-SURFACE", "min_member"]),
     "deviation": (changed(SMALL, tolerances={"max_deviation": 1}), ["E-DEVIATION", "max_deviation = 1 mm"]),
     "too many panels": (changed(SMALL, limits={"max_panels": 10}), ["E-SIZE", "35 panels", "10"]),
+    "a turning angle far too small": (
+        changed(SMALL, rail={"divide": {"angle_deg": 1e-9}}),
+        ["E-SIZE", "limits.max_panels", "200000"],
+    ),
+    "a turning angle far too small on a loop": (
+        changed(sphere(15, 30), rail={"divide": {"angle_deg": 3.6e-7}}),
+        ["E-SIZE", "1000000000 panels", "5000"],
+    ),
+    "stations without number": (
+        changed(SMALL, generatrix={"divide": {"stations": 10**9}}),
+        ["E-SIZE", "1000000000 panels"],
+    ),
     "no division": (changed(SMALL, generatrix={"divide": {}}), ["E-CURVE-DIVIDE", "generatrix.divide"]),
     "stations off the curve": (
         changed(SMALL, generatrix={"divide": {"stations": ["1 m", "99 m"]}}),

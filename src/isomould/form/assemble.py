@@ -9,7 +9,7 @@ from isomould.arrays import Bools, Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import Plane
 from isomould.errors import Note, Refused
-from isomould.form.division import Request, divide_curve
+from isomould.form.division import Request, divide_curve, refuse_size
 from isomould.form.edge_offset import divide_for_edge_offset
 from isomould.form.lattice import KoebeLattice
 from isomould.form.polygon import FLAT, CurvePolygon
@@ -64,7 +64,7 @@ def make_form(
     rail = divide_curve(rail_curve, rail_request)
     _hold_to_one_angle(rail, settings)
     generatrix, lattice = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
-    _refuse_size(rail, generatrix, rail_request)
+    refuse_size(len(rail.edges.index) * len(generatrix.edges.index), rail_request.limits)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
     edge_offset = settings.kind == "edge-offset"
@@ -95,19 +95,6 @@ def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
         f"one turning angle |α| at all nodes for surface.kind = '{settings.kind}'",
         "Divide the rail by nodes or angle_deg, or use surface.kind = 'moulding'.",
     )
-
-
-def _refuse_size(rail: CurvePolygon, generatrix: CurvePolygon, request: Request) -> None:
-    """Forecast the panels before anything large is made (failure mode J1)."""
-    count = len(rail.edges.index) * len(generatrix.edges.index)
-    if count > request.limits.max_panels:
-        raise Refused(
-            "E-SIZE",
-            "limits.max_panels",
-            f"{count} panels",
-            f"{request.limits.max_panels}",
-            "Divide the curves more coarsely, or raise the limit (about 2 kB of memory a panel).",
-        )
 
 
 def _refuse_deviation(polygon: CurvePolygon, request: Request) -> None:

@@ -36,6 +36,8 @@ def divide_curve(curve: PlanarCurve, request: Request) -> CurvePolygon:
         If the curve has kinks, too little or noisy curvature, or the request does not fit it.
     """
     divide = request.divide
+    if isinstance(divide.stations, int):
+        refuse_size(divide.stations, request.limits)
     if divide.stations is not None:
         return station_polygon(curve, divide.stations, request.field)
     if not _asks_for_angles(divide):
@@ -44,6 +46,18 @@ def divide_curve(curve: PlanarCurve, request: Request) -> CurvePolygon:
     if curve.closed:
         return _divide_closed(curve, turns, request)
     return _divide_open(curve, turns, request)
+
+
+def refuse_size(count: float, limits: FormLimits) -> None:
+    """Refuse more panels than the project allows, before anything large is made (failure mode J1)."""
+    if count > limits.max_panels:
+        raise Refused(
+            "E-SIZE",
+            "limits.max_panels",
+            f"{count:.0f} panels",
+            f"{limits.max_panels}",
+            "Divide the curves more coarsely, or raise the limit (about 2 kB of memory a panel).",
+        )
 
 
 def _asks_for_angles(divide: RailDivide | GeneratrixDivide) -> bool:
@@ -71,7 +85,7 @@ def _divide_open(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePol
     runs = arcs(turns)
     refuse_straight(runs, request.field)
     lattice = _open_lattice(turns, runs, request)
-    _check_angle(lattice.step, request)
+    _check_angle(lattice.step, runs, request)
     _refuse_incommensurable(turns, runs, lattice, request)
     edges = tangent_edges(curve, turns, lattice, request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
@@ -117,7 +131,7 @@ def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurveP
     _refuse_not_simple(total, request.field)
     count = _closed_count(runs, request)
     step = 2 * np.pi / count
-    _check_angle(step, request)
+    _check_angle(step, runs, request)
     walk = _from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
     lattice = EvenLattice(float(walk.theta0[0]), step)
     _refuse_incommensurable(walk, arcs(walk), lattice, request)
@@ -162,16 +176,19 @@ def _from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float
     """Cut a closed curve's spans open at its outermost tangent of direction `first` (rad).
 
     The drawing's start point has no influence: of several tangents with this direction, the one that supports the
-    whole curve is taken.
+    whole curve is taken, and of a straight part its middle.
     """
     lower = np.minimum(turns.theta0, turns.theta1)
     upper = np.maximum(turns.theta0, turns.theta1)
     direction = first + 2 * np.pi * np.ceil((lower - first - _WHOLE) / (2 * np.pi))
-    candidates = np.flatnonzero((direction <= upper + _WHOLE) & (turns.sign == sense))
+    candidates = np.flatnonzero((direction <= upper + _WHOLE) & (turns.sign != -sense))
     if len(candidates) == 0:
         candidates = np.flatnonzero(direction <= upper + _WHOLE)
+    candidates = candidates[np.argsort(turns.sign[candidates] != 0, kind="stable")]
     target = np.clip(direction[candidates], lower[candidates], upper[candidates])
-    parameter = tangency(curve, turns, candidates, target)
+    middle = (turns.t0[candidates] + turns.t1[candidates]) / 2
+    straight = turns.sign[candidates] == 0
+    parameter = np.where(straight, middle, tangency(curve, turns, candidates, target))
     support = curve.point(turns.piece[candidates], parameter) @ unit(np.array([first - sense * np.pi / 2]))[0]
     best = int(np.argmax(np.round(support, 6)))
     return _cut_open(turns, int(candidates[best]), float(parameter[best]), float(direction[candidates[best]]))
@@ -197,7 +214,8 @@ def _cut_open(turns: Spans, span: int, parameter: float, direction: float) -> Sp
     )
 
 
-def _check_angle(step: float, request: Request) -> None:
+def _check_angle(step: float, runs: Arcs, request: Request) -> None:
+    refuse_size(float(np.abs(runs.turning).sum()) / step, request.limits)
     if np.degrees(step) > request.limits.max_turning_deg:
         raise Refused(
             "E-CURVE-ANGLE",
