@@ -8,7 +8,7 @@ import pandas as pd
 
 from isomould.design import Design, make_design
 from isomould.documents.overview import Fact, kit_facts
-from isomould.errors import Note
+from isomould.errors import Note, Refused
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
@@ -42,6 +42,8 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
         If the template is unknown or a file is in the way.
     """
     path = Path(name)
+    if not path.name:
+        raise Refused("E-NEW", "NAME", repr(name), "a file name", "Name the project: isomould new roof.")
     return copy_template(template, path if path.suffix == ".toml" else path.with_name(f"{path.name}.toml"))
 
 

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -40,12 +41,12 @@ def new(name: str | None, template: str, list_: bool) -> None:
     """Start a project file NAME.toml from a template."""
     if list_:
         for known in template_names():
-            click.echo(f"{known:20}  {describe_template(known)}")
+            _say(f"{known:20}  {describe_template(known)}")
         return
     if name is None:
         raise click.UsageError("give the new project a NAME, or --list for the templates")
     for path in isomould.new(name, template):
-        click.echo(f"wrote {path}")
+        _say(f"wrote {path}")
 
 
 @cli.command()
@@ -59,7 +60,7 @@ def check(project: Path, changes: Sequence[str]) -> None:
         table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
     _console().print(table)
     for note in checked.notes:
-        click.echo(f"note: {note}", err=True)
+        _warn(f"note: {note}")
 
 
 @cli.command()
@@ -83,9 +84,9 @@ def build(
     with _Progress(quiet) as report:
         built = isomould.build(project, out, changes, isomould.Run(replace, effort, jobs, report))
     passed = sum(check.status == "pass" for check in built.certificate.checks)
-    click.echo(f"built {built.folder} ({passed} checks passed)")
+    _say(f"built {built.folder} ({passed} checks passed)")
     for note in built.design.notes:
-        click.echo(f"note: {note}", err=True)
+        _warn(f"note: {note}")
 
 
 @cli.command()
@@ -109,7 +110,7 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
     signal.signal(signal.SIGINT, stop.interrupt)
     click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
     layout = isomould.nest(instance, out, effort, stop)
-    click.echo(
+    _say(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
         f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
     )
@@ -130,14 +131,31 @@ def _certificate_table(certificate: Certificate) -> Table:
 
 
 def _console() -> Console:
-    return Console(highlight=False, soft_wrap=False)
+    return _Reader(highlight=False, soft_wrap=False)
+
+
+def _say(text: str) -> None:
+    _console().out(text, highlight=False)
+
+
+def _warn(text: str) -> None:
+    with suppress(OSError):  # nobody reads it
+        click.echo(text, err=True)
+
+
+class _Reader(Console):
+    """A console whose reader may go away (`| head`): what was done stays done, and the exit code says so."""
+
+    def on_broken_pipe(self) -> None:
+        with suppress(SystemExit):
+            super().on_broken_pipe()
 
 
 class _Progress:
     """Shows the running stage on stderr: a spinner on a terminal, plain lines otherwise."""
 
     def __init__(self, quiet: bool) -> None:
-        self.console = Console(stderr=True, quiet=quiet)
+        self.console = _Reader(stderr=True, quiet=quiet)
         self.status = self.console.status("starting") if self.console.is_terminal and not quiet else None
 
     def __enter__(self) -> Callable[[str], None]:
@@ -148,7 +166,8 @@ class _Progress:
             self.status.update(stage)
             self.status.start()
         else:
-            self.console.print(stage, highlight=False)
+            with suppress(OSError):  # a full log must not stop the work
+                self.console.print(stage, highlight=False)
 
     def __exit__(self, *_: object) -> None:
         if self.status:
@@ -178,15 +197,15 @@ def _run(arguments: Sequence[str] | None) -> int:
         error.show()
         return error.exit_code
     except IsomouldError as error:
-        click.echo(f"isomould: {error}", err=True)
+        _warn(f"isomould: {error}")
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):
-        click.echo("isomould: interrupted; nothing was published", err=True)
+        _warn("isomould: interrupted; nothing was published")
         return _INTERRUPTED
+    except OSError as error:
+        _warn(f"isomould: E-PRINT: the output cannot be written ({error.strerror or error}).")
+        return 3
     except MemoryError:
-        click.echo(
-            "isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.",
-            err=True,
-        )
+        _warn("isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.")
         return 2
     return result if isinstance(result, int) else 0

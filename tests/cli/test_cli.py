@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -153,6 +154,42 @@ def test_an_interrupted_build_leaves_nothing(tmp_path, number):
     assert running.returncode == 130
     assert "Traceback" not in errors
     assert [path for path in (tmp_path / "outputs").iterdir() if path.suffix != ".lock"] == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="/dev/full and pipes as on Linux")
+class TestOutputThatNobodyTakes:
+    """Printing fails; the work, the exit code and the words do not (failure mode H10)."""
+
+    def shell(self, line, folder):
+        command = ["bash", "-o", "pipefail", "-c", line.replace("isomould", f"{sys.executable} -m isomould")]
+        return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240, check=False)
+
+    def test_a_reader_that_goes_away(self, tmp_path, project_file):
+        project_file(SMALL)
+        for line in ("isomould new --list | true", "isomould check project.toml | true"):
+            result = self.shell(f"({line.split('|')[0]}) | (exec <&-; sleep 3)", tmp_path)
+            assert (result.returncode, "Traceback" in result.stderr) == (0, False)
+
+    @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
+    def test_a_full_disk_behind_the_output(self, tmp_path, project_file):
+        project_file(SMALL)
+        result = self.shell("isomould check project.toml > /dev/full", tmp_path)
+        assert result.returncode == 3
+        assert "E-PRINT" in result.stderr
+        assert "Traceback" not in result.stderr
+
+    @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
+    def test_a_full_log_does_not_stop_a_build(self, tmp_path, project_file):
+        project_file(SMALL)
+        assert self.shell("isomould build project.toml --out built 2> /dev/full", tmp_path).returncode == 0
+        assert (tmp_path / "built" / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize("arguments", [("new", "/"), ("new", ""), ("build", "project.toml", "--out", "/")])
+def test_names_that_are_no_names(tmp_path, project_file, arguments):
+    project_file(SMALL)
+    result = run(*arguments, folder=tmp_path)
+    assert (result.returncode, "Traceback" in result.stderr) == (2, False)
 
 
 @pytest.mark.parametrize("arguments", [(), ("build",), ("nest", "x.json"), ("check", "x.toml", "--sett", "a=1")])

@@ -41,6 +41,8 @@ def candidate(target: Path, replace: bool = False) -> Generator[Path]:
         If the system refuses: no space, no permission; nothing is left behind.
     """
     target = _absolute(target)
+    if not target.name:
+        raise _refused(target, "the root of a disk", "a folder on it", "Choose another with --out.")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with locked(_beside(target, _LOCK)):
