@@ -89,6 +89,33 @@ SMALL: dict[str, Any] = {
 }
 """A vault of 8 × 6 nodes with sheets, bars and strips: quick to build, everything in it."""
 
+MONGE: dict[str, Any] = {
+    "schema": 1,
+    "project": {"name": "Monge"},
+    "rail": {
+        "curve": {
+            "kind": "polyline",
+            "points": [
+                [0, 0, 0],
+                [3000, 900, 500],
+                [6000, 1100, 1300],
+                [9000, 300, 1700],
+                [12000, -900, 1500],
+                [15000, -1300, 800],
+                [18000, -900, 500],
+            ],
+        },
+        "up": [0, 0, 1],
+    },
+    "generatrix": {
+        "curve": {"kind": "arc", "span": 5000, "rise": 1200},
+        "outside": [0, 1],
+        "divide": {"nodes": 4},
+    },
+    "surface": {"kind": "monge"},
+}
+"""A vault of 6 × 7 nodes over a polyline in space."""
+
 
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:
     """Compute a design from the tables of a project."""

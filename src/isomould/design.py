@@ -3,11 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from isomould.curves.curve import PlanarCurve
-from isomould.curves.plane import Plane, build_plane
+from isomould.curves.plane import build_plane
 from isomould.curves.settings import build_curve
+from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Note
-from isomould.form.assemble import Form, make_form
+from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
@@ -22,8 +25,7 @@ class Design:
     """A project with its curves, surface and parts, and what should be known about them."""
 
     project: Project
-    plane: Plane
-    rail: PlanarCurve
+    rail: RailInPlane | RailInSpace
     generatrix: PlanarCurve
     form: Form
     kit: Kit
@@ -38,20 +40,18 @@ def make_design(project: Project, folder: Path) -> Design:
     Refused
         If the project asks for something that cannot be made.
     """
-    plane, rail, rail_notes = _rail(project.rail, folder)
+    rail, rail_notes = _rail(project.rail, folder)
     generatrix, generatrix_notes = _generatrix(project.generatrix, folder)
     form = make_form(
         rail,
         generatrix,
-        plane,
-        project.rail.ends,
         (_request("rail", project), _request("generatrix", project)),
         project.surface,
         project.members.section.depth,
     )
     kit = make_kit(make_mesh(form.surface), kit_settings(project))
     notes = (*rail_notes, *generatrix_notes, *form.notes, *kit.notes)
-    return Design(project, plane, rail, generatrix, form, kit, notes)
+    return Design(project, rail, generatrix, form, kit, notes)
 
 
 def kit_settings(project: Project) -> KitSettings:
@@ -60,10 +60,13 @@ def kit_settings(project: Project) -> KitSettings:
     return KitSettings(project.members, project.nodes, project.panels, tolerance)
 
 
-def _rail(table: RailTable, folder: Path) -> tuple[Plane, PlanarCurve, tuple[Note, ...]]:
+def _rail(table: RailTable, folder: Path) -> tuple[RailInPlane | RailInSpace, tuple[Note, ...]]:
+    if table.up is not None:
+        spatial, notes = build_spatial_curve(table.curve, folder, "rail.curve")
+        return RailInSpace(spatial, np.array(table.up)), notes
     plane = build_plane(table.plane, "rail.plane")
     curve, notes = build_curve(table.curve, folder, plane, "rail.curve")
-    return plane, orient_rail(curve, table.outside), notes
+    return RailInPlane(orient_rail(curve, table.outside or (0.0, 0.0)), plane, table.ends), notes
 
 
 def _generatrix(table: GeneratrixTable, folder: Path) -> tuple[PlanarCurve, tuple[Note, ...]]:

@@ -5,20 +5,22 @@ from typing import Any
 
 from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
+from isomould.curves.space_curve import SpatialCurve
 from isomould.design import Design
-from isomould.form.polygon import CurvePolygon
+from isomould.form.assemble import RailInSpace
+from isomould.form.polygon import CurvePolygon, Role
+from isomould.form.spatial import SpatialPolygon
 from isomould.nesting.settings import StockSettings
 
 
 def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
     """Give the content of `model/design.json`; lengths in mm, angles in rad."""
-    project, plane = design.project, design.plane
+    project = design.project
     return {
         "schema": 1,
         "kind": project.surface.kind,
         "offset": design.form.surface.profile.offset,
-        "plane": {name: getattr(plane, name).tolist() for name in ("origin", "x_axis", "y_axis")},
-        "rail": _describe_line(design.rail, design.form.rail),
+        **_describe_rail(design),
         "generatrix": _describe_line(design.generatrix, design.form.generatrix),
         "ends": project.rail.ends or ("mitred" if project.surface.kind == "edge-offset" else "square"),
         "member": _member(design),
@@ -41,19 +43,42 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
     }
 
 
-def _describe_line(curve: PlanarCurve, polygon: CurvePolygon) -> dict[str, Any]:
-    edges = polygon.edges
-    contacts = zip(edges.role, edges.piece.tolist(), edges.parameter.tolist(), strict=True)
+def _describe_rail(design: Design) -> dict[str, Any]:
+    """Give rail and plane; a rail in space has no plane, but a direction up."""
+    drawn = design.rail
+    line = _describe_line(drawn.curve, design.form.rail)
+    if isinstance(drawn, RailInSpace):
+        return {"plane": None, "up": drawn.up.tolist(), "rail": line}
+    plane = {name: getattr(drawn.plane, name).tolist() for name in ("origin", "x_axis", "y_axis")}
+    return {"plane": plane, "rail": line}
+
+
+def _describe_line(curve: PlanarCurve | SpatialCurve, polygon: CurvePolygon | SpatialPolygon) -> dict[str, Any]:
     return {
         "closed": polygon.closed,
         "curve": curve.describe(),
         "vertices": polygon.vertices.tolist(),
-        "directions": edges.direction.tolist(),
         "turning": _with_nulls(polygon.turning),
-        "declared": polygon.angle,
         "deviation_mm": polygon.deviation,
+        **(_describe_chords(polygon) if isinstance(polygon, SpatialPolygon) else _describe_edges(polygon)),
+    }
+
+
+def _describe_edges(polygon: CurvePolygon) -> dict[str, Any]:
+    edges = polygon.edges
+    contacts = zip(edges.role, edges.piece.tolist(), edges.parameter.tolist(), strict=True)
+    return {
+        "directions": edges.direction.tolist(),
+        "declared": polygon.angle,
         "edges": [{"role": role.value, "contact": [piece, t]} for role, piece, t in contacts],
     }
+
+
+def _describe_chords(polygon: SpatialPolygon) -> dict[str, Any]:
+    """Give the edges of a rail in space: no angle says their directions."""
+    contacts = zip(polygon.piece.tolist(), polygon.parameter.tolist(), strict=True)
+    edges = [{"role": Role.CHORD.value, "contact": [piece, t]} for piece, t in contacts]
+    return {"directions": None, "declared": None, "edges": edges}
 
 
 def _with_nulls(values: Floats) -> list[float | None]:

@@ -185,12 +185,6 @@ def test_mitred_ends_are_told_from_square_ones():
     assert status(RULES, "V15", spoilt(mitred, "mesh", nodes=shifted.reshape(-1, 3))).status == "fail"
 
 
-def test_a_spatial_rail_is_not_judged_by_one_plane():
-    delivery = spoilt(GOOD["vault"], "design", plane=None)
-    assert {r.id for r in RULES if judge(r, delivery).status == "not_applicable"} >= {"V3", "V15"}
-    assert judge(panels.RULES[0], delivery).status == "pass"
-
-
 def test_torsion_of_a_pair_of_axes_is_found_elsewhere():
     """Both axes of one edge turned about it: that edge is content, its neighbours are not."""
     delivery = GOOD["vault"]

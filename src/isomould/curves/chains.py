@@ -1,6 +1,6 @@
 """Joining strokes, drawn in any order and direction, to the one chain that they form."""
 
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -9,19 +9,28 @@ from scipy.spatial import KDTree
 
 from isomould.arrays import Floats, Ints
 from isomould.curves.curve import JOINT_GAP
-from isomould.curves.pieces import Piece
 from isomould.errors import Refused
 
 
-class Stroke(NamedTuple):
+class Joinable(Protocol):
+    """A piece in the plane or in space."""
+
+    def point(self, t: Floats) -> Floats: ...  # noqa: D102
+    def reversed(self) -> Self: ...  # noqa: D102
+
+
+P = TypeVar("P", bound=Joinable)
+
+
+class Stroke(NamedTuple, Generic[P]):
     """What one entity draws: pieces that join, in its own direction."""
 
     name: str
     """The entity's type and handle, for messages."""
-    pieces: tuple[Piece, ...]
+    pieces: tuple[P, ...]
 
 
-def chained(strokes: list[Stroke], field: str) -> tuple[tuple[Piece, ...], bool]:
+def chained(strokes: list[Stroke[P]], field: str) -> tuple[tuple[P, ...], bool]:
     """Join strokes end to end, in the direction of the first; say whether the chain is closed.
 
     Raises
@@ -46,14 +55,14 @@ class _Step(NamedTuple):
     forward: bool
 
 
-def _tips(strokes: list[Stroke]) -> Floats:
-    """Give start and end of every stroke: (s, 2, 2), mm."""
+def _tips(strokes: list[Stroke[Any]]) -> Floats:
+    """Give start and end of every stroke: (s, 2, 2 or 3), mm."""
     return np.array([[s.pieces[0].point(np.zeros(1))[0], s.pieces[-1].point(np.ones(1))[0]] for s in strokes])
 
 
 def _nodes(tips: Floats) -> Ints:
     """Give each tip (s, 2) the number of the place where it meets others."""
-    flat = tips.reshape(-1, 2)
+    flat = tips.reshape(-1, tips.shape[-1])
     pairs = KDTree(flat).query_pairs(JOINT_GAP, output_type="ndarray")
     return _components(pairs, len(flat)).reshape(-1, 2)
 
@@ -93,21 +102,21 @@ def _leaving(nodes: Ints, step: _Step) -> int:
     return int(nodes[step.stroke, int(not step.forward)])
 
 
-def _stepped(strokes: list[Stroke], step: _Step) -> tuple[Piece, ...]:
+def _stepped(strokes: list[Stroke[P]], step: _Step) -> tuple[P, ...]:
     pieces = strokes[step.stroke].pieces
     return pieces if step.forward else tuple(piece.reversed() for piece in pieces[::-1])
 
 
-def _refuse_branches(strokes: list[Stroke], tips: Floats, nodes: Ints, field: str) -> None:
+def _refuse_branches(strokes: list[Stroke[Any]], tips: Floats, nodes: Ints, field: str) -> None:
     crowded = np.flatnonzero(np.bincount(nodes.ravel()) > 2)
     if crowded.size:
         here = np.argwhere(nodes == crowded[0])
-        x, y = tips[tuple(here[0])]
+        place = ", ".join(f"{coordinate:.6g}" for coordinate in tips[tuple(here[0])])
         names = ", ".join(strokes[k].name for k in np.unique(here[:, 0]))
-        _refuse(f"{len(here)} ends meet at ({x:.6g}, {y:.6g}): {names}", "two ends at a joint", field)
+        _refuse(f"{len(here)} ends meet at ({place}): {names}", "two ends at a joint", field)
 
 
-def _refuse_several(strokes: list[Stroke], tips: Floats, nodes: Ints, field: str) -> None:
+def _refuse_several(strokes: list[Stroke[Any]], tips: Floats, nodes: Ints, field: str) -> None:
     groups = _components(nodes, int(nodes.max()) + 1)[nodes[:, 0]]
     count = int(groups.max()) + 1
     if count > 1:
@@ -124,15 +133,15 @@ def _listed(names: list[str]) -> str:
 
 def _nearest_gap(tips: Floats, groups: Ints) -> float:
     one = groups == 0
-    distances, _ = KDTree(tips[one].reshape(-1, 2)).query(tips[~one].reshape(-1, 2))
+    distances, _ = KDTree(tips[one].reshape(-1, tips.shape[-1])).query(tips[~one].reshape(-1, tips.shape[-1]))
     return float(np.min(distances))
 
 
-def _refuse_doubled(strokes: list[Stroke], closed: bool, field: str) -> None:
+def _refuse_doubled(strokes: list[Stroke[Any]], closed: bool, field: str) -> None:
     """Refuse two strokes that join to a loop because one lies on the other."""
     if closed and len(strokes) == 2 and all(len(s.pieces) == 1 for s in strokes):
         middles = [s.pieces[0].point(np.array([0.5]))[0] for s in strokes]
-        if np.hypot(*(middles[0] - middles[1])) <= JOINT_GAP:
+        if np.linalg.norm(middles[0] - middles[1]) <= JOINT_GAP:
             names = " and ".join(s.name for s in strokes)
             _refuse(f"{names} lie on each other", "each entity once", field)
 

@@ -1,9 +1,9 @@
 """A planar curve: a chain of pieces, checked once when it is joined, then only evaluated."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -22,6 +22,27 @@ SMALLEST, SMALL, LARGE, LARGEST = 0.5, 500.0, 2e6, 2e9
 """Sizes (diagonals) that are refused, noted, noted, refused, mm (failure mode A3)."""
 
 _KINDS: dict[str, type[Piece]] = {kind.kind: kind for kind in (Line, Ellipse, Sine, Catenary, Bezier)}
+
+
+class AnyPiece(Protocol):
+    """What a piece in the plane and a piece in space have in common."""
+
+    kind: ClassVar[str]
+
+    def point(self, t: Floats) -> Floats: ...  # noqa: D102
+    def splits(self) -> Floats: ...  # noqa: D102
+    def least_speed(self) -> float: ...  # noqa: D102
+
+
+class Curve(Protocol):
+    """What a curve in the plane and a curve in space have in common; points have 2 or 3 coordinates."""
+
+    @property
+    def pieces(self) -> Sequence[AnyPiece]: ...  # noqa: D102
+    @property
+    def closed(self) -> bool: ...  # noqa: D102
+    def point(self, index: Ints, t: Floats) -> Floats: ...  # noqa: D102
+    def derivative(self, index: Ints, t: Floats) -> Floats: ...  # noqa: D102
 
 
 class _Stack(NamedTuple):
@@ -126,16 +147,21 @@ def join_pieces(pieces: tuple[Piece, ...], closed: bool, field: str = "curve") -
     """
     _refuse_wild_numbers(pieces, field)
     kept = tuple(piece for piece in pieces if not _is_repeated_point(piece))
-    _refuse_nothing(kept, field)
     curve = PlanarCurve(kept, closed)
+    return curve, (*_repeated(len(pieces) - len(kept), field), *check_chain(curve, field))
+
+
+def check_chain(curve: Curve, field: str) -> tuple[Note, ...]:
+    """Refuse a chain with gaps, ends that meet unsaid, cusps or an implausible size (see `join_pieces`)."""
+    _refuse_nothing(curve.pieces, field)
     _refuse_gaps(curve, field)
     _refuse_unsaid_closure(curve, field)
     _refuse_cusps(curve, field)
-    return curve, (*_repeated(len(pieces) - len(kept), field), *_weigh_size(curve, field))
+    return _weigh_size(curve, field)
 
 
-def ends(curve: PlanarCurve) -> tuple[Floats, Floats]:
-    """Give the start and the end points of all pieces, each (k, 2), mm."""
+def ends(curve: Curve) -> tuple[Floats, Floats]:
+    """Give the start and the end points of all pieces, each (k, 2 or 3), mm."""
     every = np.arange(len(curve.pieces))
     return curve.point(every, np.zeros(every.size)), curve.point(every, np.ones(every.size))
 
@@ -153,7 +179,7 @@ def _refuse_wild_numbers(pieces: tuple[Piece, ...], field: str) -> None:
             )
 
 
-def _refuse_nothing(pieces: tuple[Piece, ...], field: str) -> None:
+def _refuse_nothing(pieces: Sequence[AnyPiece], field: str) -> None:
     if not pieces:
         raise Refused(
             code="E-CURVE-EMPTY",
@@ -174,25 +200,25 @@ def _repeated(count: int, field: str) -> tuple[Note, ...]:
     return (Note("W-CURVE-REPEATED", field, text),) if count else ()
 
 
-def _refuse_gaps(curve: PlanarCurve, field: str) -> None:
+def _refuse_gaps(curve: Curve, field: str) -> None:
     starts, finishes = ends(curve)
     following = np.roll(starts, -1, axis=0) if curve.closed else starts[1:]
-    gaps = np.hypot(*(following - finishes[: len(following)]).T)
+    gaps = np.linalg.norm(following - finishes[: len(following)], axis=1)
     if gaps.size and not gaps.max() <= JOINT_GAP:
         worst = int(gaps.argmax())
-        x, y = finishes[worst]
+        place = ", ".join(f"{coordinate:.6g}" for coordinate in finishes[worst])
         raise Refused(
             code="E-CURVE-GAP",
             field=field,
-            found=f"a gap of {gaps[worst]:.6g} mm after piece {worst} at ({x:.6g}, {y:.6g})",
+            found=f"a gap of {gaps[worst]:.6g} mm after piece {worst} at ({place})",
             limit=f"{JOINT_GAP:g} mm",
             way_out="Join the ends of the pieces, or do not declare the curve closed.",
         )
 
 
-def _refuse_unsaid_closure(curve: PlanarCurve, field: str) -> None:
+def _refuse_unsaid_closure(curve: Curve, field: str) -> None:
     starts, finishes = ends(curve)
-    if not curve.closed and np.hypot(*(finishes[-1] - starts[0])) <= JOINT_GAP:
+    if not curve.closed and np.linalg.norm(finishes[-1] - starts[0]) <= JOINT_GAP:
         raise Refused(
             code="E-CURVE-CLOSED",
             field=field,
@@ -202,10 +228,10 @@ def _refuse_unsaid_closure(curve: PlanarCurve, field: str) -> None:
         )
 
 
-def _refuse_cusps(curve: PlanarCurve, field: str) -> None:
+def _refuse_cusps(curve: Curve, field: str) -> None:
     t = np.linspace(0, 1, 17)
     for k, piece in enumerate(curve.pieces):
-        length = float(np.hypot(*np.diff(piece.point(t), axis=0).T).sum())
+        length = float(np.linalg.norm(np.diff(piece.point(t), axis=0), axis=1).sum())
         _refuse_short(length, k, field)
         if not piece.least_speed() >= LEAST_SPEED * length:
             raise Refused(
@@ -228,9 +254,9 @@ def _refuse_short(length: float, k: int, field: str) -> None:
         )
 
 
-def _weigh_size(curve: PlanarCurve, field: str) -> tuple[Note, ...]:
+def _weigh_size(curve: Curve, field: str) -> tuple[Note, ...]:
     every, t = np.divmod(np.arange(9 * len(curve.pieces)), 9)
-    size = float(np.hypot(*np.ptp(curve.point(every, t / 8), axis=0)))
+    size = float(np.linalg.norm(np.ptp(curve.point(every, t / 8), axis=0)))
     if not SMALLEST <= size <= LARGEST:
         raise Refused(
             code="E-CURVE-SIZE",

@@ -66,13 +66,18 @@ def read_curve(drawing: Drawing, field: str) -> Draft:
     OutputFault
         If the system does not let the file be read.
     """
+    traced, remarks = trace_layer(drawing, field)
+    strokes, repeated = laid_flat(traced, drawing.plane, field)
+    pieces, closed = chained(strokes, field)
+    return Draft(pieces, closed, (*remarks, *repeated))
+
+
+def trace_layer(drawing: Drawing, field: str) -> tuple[list[Traced], tuple[Note, ...]]:
+    """Give what is drawn on the drawing's layer as shapes in space, mm, entity by entity; refusals as above."""
     document = _open(drawing.path, field)
     factor = _factor(document, drawing.units, field)
     found = _on_layer(document, drawing.layer, field)
-    traced = [_traced(one, factor, field) for one in found]
-    strokes, repeated = laid_flat(traced, drawing.plane, field)
-    pieces, closed = chained(strokes, field)
-    return Draft(pieces, closed, (*_remarks(found, field), *repeated))
+    return [_traced(one, factor, field) for one in found], _remarks(found, field)
 
 
 # --- the file

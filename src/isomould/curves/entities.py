@@ -10,10 +10,9 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves import shapes
-from isomould.curves.bezier import Bezier
-from isomould.curves.bspline import Nurbs, Segment, interpolated, segments
+from isomould.curves.bspline import Nurbs, interpolated, segments
 from isomould.curves.pieces import Ellipse, Line, Piece
-from isomould.curves.spatial import Shape, anchors
+from isomould.curves.spatial import Shape, anchors, shapes_of
 
 
 def name_of(entity: Any) -> str:
@@ -75,7 +74,7 @@ def _spline(entity: Any) -> list[Shape]:
         return _through_fit_points(entity)
     points, knots = np.array(entity.control_points, float), np.array(entity.knots, float)
     weights = np.array(entity.weights, float) if len(entity.weights) else np.ones(len(points))
-    return _beziers(segments(Nurbs(entity.dxf.degree, points, weights, knots), name_of(entity)))
+    return shapes_of(segments(Nurbs(entity.dxf.degree, points, weights, knots), name_of(entity)))
 
 
 def _through_fit_points(entity: Any) -> list[Shape]:
@@ -86,18 +85,11 @@ def _through_fit_points(entity: Any) -> list[Shape]:
         message = f"{len(points)} different fit points"
         raise ValueError(message)
     if closed:
-        return _beziers(interpolated(np.vstack([points, points[:1]]), "periodic"))
+        return shapes_of(interpolated(np.vstack([points, points[:1]]), "periodic"))
     tangents = [np.array(entity.dxf.get(name, (0, 0, 0)), float) for name in ("start_tangent", "end_tangent")]
     if not any(t.any() for t in tangents):
-        return _beziers(interpolated(points, "natural"))
-    return _beziers(interpolated(points, (_unit(tangents[0]), _unit(tangents[1]))))
-
-
-def _beziers(parts: list[Segment]) -> list[Shape]:
-    return [
-        Shape(Line, p.points) if len(p.points) == 2 else Shape(Bezier, p.points, tuple(p.weights.tolist()))
-        for p in parts
-    ]
+        return shapes_of(interpolated(points, "natural"))
+    return shapes_of(interpolated(points, (_unit(tangents[0]), _unit(tangents[1]))))
 
 
 def _lifted(pieces: tuple[Piece, ...], entity: Any, height: float) -> list[Shape]:

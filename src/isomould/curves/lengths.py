@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import elementwise
 
 from isomould.arrays import Bools, Floats, Ints
-from isomould.curves.curve import PlanarCurve
+from isomould.curves.curve import Curve
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 _SETTLED = 1e-13
@@ -23,12 +23,12 @@ class _Cells(NamedTuple):
     lengths: Floats
 
 
-def length(curve: PlanarCurve) -> float:
+def length(curve: Curve) -> float:
     """Give the curve's length, mm, to about 1e-12 of itself."""
     return float(_cells(curve).lengths.sum())
 
 
-def parameter_at(curve: PlanarCurve, lengths: Floats) -> tuple[Ints, Floats]:
+def parameter_at(curve: Curve, lengths: Floats) -> tuple[Ints, Floats]:
     """Find the places at arc lengths (n,) from the start, mm, as index (n,) and t (n,).
 
     Raises
@@ -47,7 +47,7 @@ def parameter_at(curve: PlanarCurve, lengths: Floats) -> tuple[Ints, Floats]:
     return cells.piece[cell], _solve(curve, cells, cell, rest)
 
 
-def _solve(curve: PlanarCurve, cells: _Cells, cell: Ints, rest: Floats) -> Floats:
+def _solve(curve: Curve, cells: _Cells, cell: Ints, rest: Floats) -> Floats:
     """Find in each cell the parameter that is `rest` along it."""
     index, low, high = cells.piece[cell], cells.t0[cell], cells.t1[cell]
 
@@ -60,7 +60,7 @@ def _solve(curve: PlanarCurve, cells: _Cells, cell: Ints, rest: Floats) -> Float
     return np.where(found.success, found.x, np.where(nearer_high, high, low))
 
 
-def _cells(curve: PlanarCurve) -> _Cells:
+def _cells(curve: Curve) -> _Cells:
     """Halve the pieces' monotone spans until the quadrature settles."""
     open_cells = _first_cells(curve)
     settled: list[_Cells] = []
@@ -76,14 +76,14 @@ def _cells(curve: PlanarCurve) -> _Cells:
     return _ordered([*settled, open_cells])
 
 
-def _first_cells(curve: PlanarCurve) -> _Cells:
+def _first_cells(curve: Curve) -> _Cells:
     fences = [np.concatenate([[0.0], piece.splits(), [1.0]]) for piece in curve.pieces]
     index = np.repeat(np.arange(len(fences)), [len(f) - 1 for f in fences])
     t0, t1 = np.concatenate([f[:-1] for f in fences]), np.concatenate([f[1:] for f in fences])
     return _Cells(index, t0, t1, _integrate(curve, index, t0, t1))
 
 
-def _halved(curve: PlanarCurve, cells: _Cells) -> _Cells:
+def _halved(curve: Curve, cells: _Cells) -> _Cells:
     middle = (cells.t0 + cells.t1) / 2
     index = np.tile(cells.piece, 2)
     t0, t1 = np.concatenate([cells.t0, middle]), np.concatenate([middle, cells.t1])
@@ -101,9 +101,9 @@ def _ordered(parts: list[_Cells]) -> _Cells:
     return _chosen(every, np.lexsort((t0, index)))
 
 
-def _integrate(curve: PlanarCurve, index: Ints, t0: Floats, t1: Floats) -> Floats:
+def _integrate(curve: Curve, index: Ints, t0: Floats, t1: Floats) -> Floats:
     """Integrate the speed over each stretch: all (n,) to lengths (n,), mm."""
     half = (t1 - t0) / 2
     t = (t0 + half)[:, None] + half[:, None] * _NODES
-    speed = np.hypot(*curve.derivative(np.repeat(index, _NODES.size), t.ravel()).T)
+    speed = np.linalg.norm(curve.derivative(np.repeat(index, _NODES.size), t.ravel()), axis=1)
     return half * (speed.reshape(t.shape) @ _WEIGHTS)

@@ -10,6 +10,7 @@ from isomould.arrays import Floats
 from isomould.curves import shapes
 from isomould.curves.bspline import (
     Nurbs,
+    Segment,
     SplineEnds,
     clamped_knots,
     interpolated,
@@ -20,6 +21,7 @@ from isomould.curves.bspline import (
 from isomould.curves.curve import PlanarCurve, join_pieces
 from isomould.curves.dxf import Drawing, read_curve
 from isomould.curves.plane import Plane
+from isomould.curves.points import Points, refuse_spatial
 from isomould.curves.shapes import Draft
 from isomould.errors import Note, Refused
 from isomould.settings import Settings
@@ -140,7 +142,7 @@ class BsplineSettings(_WithCoordinates):
 
     kind: Literal["bspline"]
     degree: Count = 3
-    points: tuple[Coordinates, ...]
+    points: Points
     weights: tuple[Number, ...] | None = None
     knots: tuple[Number, ...] | None = None
     closed: Flag = False
@@ -160,7 +162,7 @@ class SplineSettings(_WithCoordinates):
     """
 
     kind: Literal["spline"]
-    points: tuple[Coordinates, ...]
+    points: Points
     closed: Flag = False
     ends: SplineEnds = "natural"
 
@@ -169,7 +171,7 @@ class PolylineSettings(_WithCoordinates):
     """Straight edges and, where a bulge (tan of a quarter of the angle, left positive) is not 0, arcs."""
 
     kind: Literal["polyline"]
-    points: tuple[Coordinates, ...]
+    points: Points
     bulges: tuple[Number, ...] | None = None
     closed: Flag = False
 
@@ -223,6 +225,7 @@ def build_curve(
     OutputFault
         If a file cannot be read.
     """
+    refuse_spatial(getattr(settings, "points", ()), field)
     draft = _draft(settings, base_dir, plane, field)
     curve, notes = join_pieces(draft.pieces, draft.closed, field)
     return curve, (*draft.notes, *notes)
@@ -292,7 +295,12 @@ def _range(start_deg: float | None, end_deg: float | None, field: str) -> tuple[
 
 
 def _bspline(settings: BsplineSettings, field: str) -> Draft:
-    points = _points(settings, field)
+    return Draft(tuple(piece_of(segment) for segment in bspline_segments(settings, field)), settings.closed)
+
+
+def bspline_segments(settings: BsplineSettings, field: str) -> list[Segment]:
+    """Give the Bézier segments of a `bspline` table, in the plane or in space."""
+    points = points_of(settings, field)
     weights = np.ones(len(points)) if settings.weights is None else np.array(settings.weights, float)
     if weights.size != len(points):
         _refuse_count("weights", weights.size, len(points), field)
@@ -302,19 +310,25 @@ def _bspline(settings: BsplineSettings, field: str) -> Draft:
     else:
         knots = settings.knots or clamped_knots(len(points), settings.degree)
         spline = Nurbs(settings.degree, points, weights, np.array(knots, float))
-    return Draft(tuple(piece_of(segment) for segment in segments(spline, field)), settings.closed)
+    return segments(spline, field)
 
 
 def _spline(settings: SplineSettings, field: str) -> Draft:
-    points, notes = shapes.distinct(_points(settings, field), settings.closed, f"{field}.points")
+    parts, notes = spline_segments(settings, field)
+    return Draft(tuple(piece_of(segment) for segment in parts), settings.closed, notes)
+
+
+def spline_segments(settings: SplineSettings, field: str) -> tuple[list[Segment], tuple[Note, ...]]:
+    """Give the Bézier segments of a `spline` table, in the plane or in space."""
+    points, notes = shapes.distinct(points_of(settings, field), settings.closed, f"{field}.points")
     _refuse_few(points, 2 if settings.closed else 1, f"{field}.points")
     path = np.vstack([points, points[:1]]) if settings.closed else points
     ends = "periodic" if settings.closed else settings.ends
-    return Draft(tuple(piece_of(s) for s in interpolated(path, ends)), settings.closed, notes)
+    return interpolated(path, ends), notes
 
 
 def _polyline(settings: PolylineSettings, field: str) -> Draft:
-    points = _points(settings, field)
+    points = points_of(settings, field)
     edges = len(points) - (not settings.closed)
     bulges = np.zeros(edges) if settings.bulges is None else np.array(settings.bulges, float)
     if bulges.size != edges:
@@ -335,7 +349,8 @@ def _drawing(settings: DxfSettings, base_dir: Path, plane: Plane | None, field: 
     return Drawing(path, settings.layer, settings.units, plane if settings.drawn == "world" else None)
 
 
-def _points(settings: BsplineSettings | SplineSettings | PolylineSettings, field: str) -> Floats:
+def points_of(settings: BsplineSettings | SplineSettings | PolylineSettings, field: str) -> Floats:
+    """Give the points (n, 2 or 3) of a table, mm."""
     _refuse_few(np.array(settings.points), 1, f"{field}.points")
     return np.array(settings.points, float) * _scale(settings)
 

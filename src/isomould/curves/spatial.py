@@ -6,6 +6,7 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves.bezier import Bezier
+from isomould.curves.bspline import Segment
 from isomould.curves.chains import Stroke
 from isomould.curves.curve import JOINT_GAP, REMOTEST
 from isomould.curves.pieces import Ellipse, Line, Piece, tuples
@@ -48,7 +49,15 @@ def anchors(piece: Piece) -> tuple[Floats, tuple[float, ...]]:
             raise TypeError(piece.kind)
 
 
-def laid_flat(traced: list[Traced], plane: Plane | None, field: str) -> tuple[list[Stroke], tuple[Note, ...]]:
+def shapes_of(parts: list[Segment]) -> list[Shape]:
+    """Give the shapes of a spline's segments; degree 1 becomes a line."""
+    return [
+        Shape(Line, p.points) if len(p.points) == 2 else Shape(Bezier, p.points, tuple(p.weights.tolist()))
+        for p in parts
+    ]
+
+
+def laid_flat(traced: list[Traced], plane: Plane | None, field: str) -> tuple[list[Stroke[Piece]], tuple[Note, ...]]:
     """Give the plane coordinates of what was drawn, on a plane or, without one, as the drawing's x and y.
 
     Lines of length zero are left out with a note.
@@ -59,8 +68,7 @@ def laid_flat(traced: list[Traced], plane: Plane | None, field: str) -> tuple[li
         E-DXF-ENTITY for numbers that are not finite, E-DXF-PLANE for what leaves the plane by more than
         1e-6 mm, E-DXF-CURVES for a curve that says it is closed and is not.
     """
-    for one in traced:
-        _refuse_wild(one, field)
+    refuse_wild(traced, field)
     ground = plane or _ground(traced)
     strokes = [_stroke(one, ground, plane is None, field) for one in traced]
     kept = [stroke._replace(pieces=tuple(p for p in stroke.pieces if not _is_dot(p))) for stroke in strokes]
@@ -78,17 +86,18 @@ def _ground(traced: list[Traced]) -> Plane:
     return Plane(origin, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
 
 
-def _stroke(one: Traced, plane: Plane, flat: bool, field: str) -> Stroke:
+def _stroke(one: Traced, plane: Plane, flat: bool, field: str) -> Stroke[Piece]:
     placed = [project(plane, shape.anchors) for shape in one.shapes]
     away = max((float(distances.max()) for _, distances in placed), default=0.0)
     if not away <= OUT_OF_PLANE:
         _refuse_leaving(one.name, away, flat, field)
-    pieces = tuple(_piece(shape, points) for shape, (points, _) in zip(one.shapes, placed, strict=True))
+    pieces = tuple(piece_on(shape, points) for shape, (points, _) in zip(one.shapes, placed, strict=True))
     _refuse_false_closure(one, pieces, field)
     return Stroke(one.name, pieces)
 
 
-def _piece(shape: Shape, points: Floats) -> Piece:
+def piece_on(shape: Shape, points: Floats) -> Piece:
+    """Give the piece in a plane that a shape is when its anchors have the plane's coordinates (k, 2)."""
     if shape.kind is Line:
         return Line(*tuples(points))
     if shape.kind is Ellipse:
@@ -99,6 +108,12 @@ def _piece(shape: Shape, points: Floats) -> Piece:
 
 def _is_dot(piece: Piece) -> bool:
     return isinstance(piece, Line) and piece.start == piece.end
+
+
+def refuse_wild(traced: list[Traced], field: str) -> None:
+    """Refuse numbers that are not finite or too far from the origin."""
+    for one in traced:
+        _refuse_wild(one, field)
 
 
 def _refuse_wild(one: Traced, field: str) -> None:
@@ -123,7 +138,7 @@ def _refuse_false_closure(one: Traced, pieces: tuple[Piece, ...], field: str) ->
             _refuse("CURVES", field, found, f"{JOINT_GAP:g} mm", "Close it in CAD and save again.")
 
 
-def _refuse_nothing(strokes: list[Stroke], field: str) -> None:
+def _refuse_nothing(strokes: list[Stroke[Piece]], field: str) -> None:
     if not strokes:
         _refuse("CURVES", field, "only points", "one curve", "Draw a curve on the layer.")
 

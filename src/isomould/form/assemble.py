@@ -1,6 +1,7 @@
 """From two curves to the surface: orientation, division, frame, product (geometry §0–§5)."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -8,15 +9,33 @@ import shapely
 from isomould.arrays import Bools, Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import Plane
+from isomould.curves.space_curve import SpatialCurve
 from isomould.errors import Note, Refused
 from isomould.form.division import Request, divide_curve, refuse_size
 from isomould.form.edge_offset import divide_for_edge_offset
+from isomould.form.frame import refuse_twist, spatial_rail
 from isomould.form.lattice import KoebeLattice
 from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import make_profile
-from isomould.form.rail import Ends, planar_rail
+from isomould.form.rail import Ends, Rail, planar_rail
 from isomould.form.settings import GeneratrixDivide, SurfaceSettings
+from isomould.form.spatial import SpatialPolygon, divide_in_space
 from isomould.form.surface import Surface, make_surface, refuse_flips
+
+
+class RailInPlane(NamedTuple):
+    """A rail's oriented curve, the plane that it lies in, and its open ends (None: as the kind has them)."""
+
+    curve: PlanarCurve
+    plane: Plane
+    ends: Ends | None
+
+
+class RailInSpace(NamedTuple):
+    """A rail's curve in space, and the direction (3,) that the first edge's W is nearest to."""
+
+    curve: SpatialCurve
+    up: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,16 +43,14 @@ class Form:
     """The surface and the two polygons that it is made of, with what should be known about them."""
 
     surface: Surface
-    rail: CurvePolygon
+    rail: CurvePolygon | SpatialPolygon
     generatrix: CurvePolygon
     notes: tuple[Note, ...]
 
 
 def make_form(
-    rail_curve: PlanarCurve,
+    drawn: RailInPlane | RailInSpace,
     generatrix_curve: PlanarCurve,
-    plane: Plane,
-    ends: Ends | None,
     requests: tuple[Request, Request],
     settings: SurfaceSettings,
     depth: float,
@@ -42,12 +59,10 @@ def make_form(
 
     Parameters
     ----------
-    rail_curve, generatrix_curve
-        Oriented curves, their outsides to the right.
-    plane
-        Plane of the rail.
-    ends
-        Treatment of open rail ends; None for the kind's default.
+    drawn
+        The rail.
+    generatrix_curve
+        In coordinates (d, z), its outside to the right.
     requests
         How rail and generatrix are divided.
     settings
@@ -61,25 +76,36 @@ def make_form(
         If the design asks for what the surface cannot have.
     """
     rail_request, generatrix_request = requests
-    rail = divide_curve(rail_curve, rail_request)
-    _hold_to_one_angle(rail, settings)
+    rail, frame = _make_rail(drawn, rail_request, settings)
     generatrix, lattice = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
-    refuse_size(len(rail.edges.index) * len(generatrix.edges.index), rail_request.limits)
+    refuse_size(len(rail.lengths) * len(generatrix.lengths), rail_request.limits)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
-    edge_offset = settings.kind == "edge-offset"
-    frame = planar_rail(rail, plane, ends or ("mitred" if edge_offset else "square"))
     surface = make_surface(frame, make_profile(generatrix, lattice))
+    refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    return Form(surface, rail, generatrix, (*_turning_notes(rail), *_flat_notes(rail, edge_offset)))
+    notes = (*_turning_notes(rail), *_flat_notes(rail, settings.kind == "edge-offset"), *_sagitta_notes(rail))
+    return Form(surface, rail, generatrix, notes)
+
+
+def _make_rail(
+    drawn: RailInPlane | RailInSpace, request: Request, settings: SurfaceSettings
+) -> tuple[CurvePolygon | SpatialPolygon, Rail]:
+    if isinstance(drawn, RailInSpace):
+        polygon = divide_in_space(drawn.curve, request)
+        return polygon, spatial_rail(polygon, drawn.up)
+    polygon = divide_curve(drawn.curve, request)
+    _hold_to_one_angle(polygon, settings)
+    ends = drawn.ends or ("mitred" if settings.kind == "edge-offset" else "square")
+    return polygon, planar_rail(polygon, drawn.plane, ends)
 
 
 def _divide_generatrix(
-    curve: PlanarCurve, rail: CurvePolygon, request: Request, settings: SurfaceSettings
+    curve: PlanarCurve, rail: CurvePolygon | SpatialPolygon, request: Request, settings: SurfaceSettings
 ) -> tuple[CurvePolygon, KoebeLattice | None]:
     divide = request.divide
-    if settings.kind != "edge-offset" or not isinstance(divide, GeneratrixDivide):
+    if settings.kind != "edge-offset" or not isinstance(divide, GeneratrixDivide) or isinstance(rail, SpatialPolygon):
         return divide_curve(curve, request), None
     limit = float(np.radians(settings.min_pole_angle_deg))
     return divide_for_edge_offset(curve, rail.angle or 0.0, divide.phase or "centre", limit, request)
@@ -97,7 +123,7 @@ def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
     )
 
 
-def _refuse_deviation(polygon: CurvePolygon, request: Request) -> None:
+def _refuse_deviation(polygon: CurvePolygon | SpatialPolygon, request: Request) -> None:
     limit = request.limits.max_deviation
     if limit is not None and polygon.deviation > limit:
         raise Refused(
@@ -109,17 +135,12 @@ def _refuse_deviation(polygon: CurvePolygon, request: Request) -> None:
         )
 
 
-def _refuse_crossings(rail: CurvePolygon, generatrix: CurvePolygon, surface: Surface) -> None:
-    """Refuse rails, profiles and parallels that cross themselves (failure modes B6, C5)."""
-    for polygon, field in ((rail, "rail"), (generatrix, "generatrix")):
-        if not _is_simple(polygon.vertices[None], polygon.closed).all():
-            raise Refused(
-                "E-CURVE-CROSSING",
-                f"{field}.curve",
-                "a polygon that crosses itself",
-                "none",
-                "Redraw the curve.",
-            )
+def _refuse_crossings(rail: CurvePolygon | SpatialPolygon, generatrix: CurvePolygon, surface: Surface) -> None:
+    """Refuse rails, profiles and parallels that cross themselves (failure modes B6, C5); in space the profile only."""
+    _refuse_crossing(generatrix, "generatrix")
+    if isinstance(rail, SpatialPolygon):
+        return
+    _refuse_crossing(rail, "rail")
     frame = surface.rail
     axes = np.stack([frame.directions[0], frame.outward[0]])
     mitre, base = frame.A @ axes.T, frame.R @ axes.T
@@ -135,22 +156,40 @@ def _refuse_crossings(rail: CurvePolygon, generatrix: CurvePolygon, surface: Sur
         )
 
 
+def _refuse_crossing(polygon: CurvePolygon, field: str) -> None:
+    if not _is_simple(polygon.vertices[None], polygon.closed).all():
+        raise Refused(
+            "E-CURVE-CROSSING",
+            f"{field}.curve",
+            "a polygon that crosses itself",
+            "none",
+            "Redraw the curve.",
+        )
+
+
 def _is_simple(lines: Floats, closed: bool) -> Bools:
     """Whether polylines (k, n, 2) are free of crossings."""
     rings = np.concatenate([lines, lines[:, :1]], axis=1) if closed else lines
     return np.atleast_1d(shapely.is_simple(shapely.linestrings(rings)))
 
 
-def _turning_notes(rail: CurvePolygon) -> tuple[Note, ...]:
-    steepest = float(np.degrees(np.nanmax(np.abs(rail.turning))))
+def _turning_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:
+    steepest = float(np.degrees(np.nan_to_num(np.abs(rail.turning)).max()))
     if steepest <= 30.0:
         return ()
     return (Note("W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than 30°"),)
 
 
-def _flat_notes(rail: CurvePolygon, edge_offset: bool) -> tuple[Note, ...]:
+def _flat_notes(rail: CurvePolygon | SpatialPolygon, edge_offset: bool) -> tuple[Note, ...]:
     flat = int(np.count_nonzero(np.abs(np.nan_to_num(rail.turning, nan=1.0)) <= FLAT))
     if not (edge_offset and flat):
         return ()
     text = f"{flat} flat rail nodes: their beams do not meet exactly (see the mismatch of the nodes)"
     return (Note("W-RAIL-FLAT", "rail.flat_nodes", text),)
+
+
+def _sagitta_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:
+    """Say how far the chords leave a rail in space: its tangents do not meet (geometry §3)."""
+    if not isinstance(rail, SpatialPolygon) or rail.deviation == 0.0:
+        return ()
+    return (Note("W-RAIL-SAGITTA", "rail.divide", f"the rail's chords leave it by up to {rail.deviation:.3f} mm"),)

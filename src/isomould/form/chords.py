@@ -1,13 +1,27 @@
 """Polygons with their vertices on the curve: stations, and polylines taken as drawn (paper §3.3)."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from isomould.arrays import Floats, Ints
-from isomould.curves.curve import PlanarCurve
+from isomould.curves.curve import Curve, PlanarCurve
 from isomould.curves.lengths import length, parameter_at
 from isomould.curves.pieces import Line
 from isomould.errors import Refused
 from isomould.form.polygon import CurvePolygon, Edges, Role
+
+_BETWEEN = np.arange(1, 8) / 8
+"""Where along each arc, as shares of its length, its distance from the chord is measured."""
+
+
+class Chords(NamedTuple):
+    """Vertices (n, 2 or 3) mm on a curve, the places (n,), (n,) where they lie, and the largest sagitta, mm."""
+
+    vertices: Floats
+    piece: Ints
+    parameter: Floats
+    sagitta: float
 
 
 def station_polygon(curve: PlanarCurve, asked: int | tuple[float, ...], field: str) -> CurvePolygon:
@@ -15,17 +29,29 @@ def station_polygon(curve: PlanarCurve, asked: int | tuple[float, ...], field: s
 
     The deviation is the largest sagitta.
     """
-    total = length(curve)
-    places = np.linspace(0.0, total, asked + 1) if isinstance(asked, int) else _inner(asked, total, field)
-    piece, parameter = parameter_at(curve, places[:-1] if curve.closed else places)
-    vertices = curve.point(piece, parameter)
-    middles = curve.point(*parameter_at(curve, (places[:-1] + places[1:]) / 2))
-    return _chord_polygon(curve, vertices, piece, parameter, _sagitta(vertices, middles, curve.closed))
+    return _chord_polygon(stations(curve, asked, field), curve.closed)
 
 
 def drawn_polygon(curve: PlanarCurve, field: str) -> CurvePolygon:
     """Take the vertices of a polyline as they are drawn."""
-    if not all(isinstance(piece, Line) for piece in curve.pieces):
+    straight = all(isinstance(piece, Line) for piece in curve.pieces)
+    return _chord_polygon(corners(curve, straight, field), curve.closed)
+
+
+def stations(curve: Curve, asked: int | tuple[float, ...], field: str) -> Chords:
+    """Find the stations of `station_polygon` on a curve in the plane or in space."""
+    total = length(curve)
+    places = np.linspace(0.0, total, asked + 1) if isinstance(asked, int) else _inner(asked, total, field)
+    piece, parameter = parameter_at(curve, places[:-1] if curve.closed else places)
+    vertices = curve.point(piece, parameter)
+    between = places[:-1] + np.multiply.outer(_BETWEEN, np.diff(places))
+    arcs = curve.point(*parameter_at(curve, between.ravel())).reshape(*between.shape, -1)
+    return Chords(vertices, piece, parameter, _sagitta(vertices, arcs, curve.closed))
+
+
+def corners(curve: Curve, straight: bool, field: str) -> Chords:
+    """Find the vertices of a polyline in the plane or in space; other curves (not `straight`) are refused."""
+    if not straight:
         raise Refused(
             "E-CURVE-DIVIDE",
             f"{field}.divide",
@@ -37,7 +63,7 @@ def drawn_polygon(curve: PlanarCurve, field: str) -> CurvePolygon:
     piece, parameter = np.arange(count), np.zeros(count)
     if not curve.closed:
         piece, parameter = np.append(piece, count - 1), np.append(parameter, 1.0)
-    return _chord_polygon(curve, curve.point(piece, parameter), piece, parameter, 0.0)
+    return Chords(curve.point(piece, parameter), piece, parameter, 0.0)
 
 
 def _inner(asked: tuple[float, ...], total: float, field: str) -> Floats:
@@ -53,10 +79,9 @@ def _inner(asked: tuple[float, ...], total: float, field: str) -> Floats:
     return places
 
 
-def _chord_polygon(
-    curve: PlanarCurve, vertices: Floats, piece: Ints, parameter: Floats, deviation: float
-) -> CurvePolygon:
-    ahead = np.roll(vertices, -1, axis=0) if curve.closed else vertices[1:]
+def _chord_polygon(chords: Chords, closed: bool) -> CurvePolygon:
+    vertices, piece, parameter, deviation = chords
+    ahead = np.roll(vertices, -1, axis=0) if closed else vertices[1:]
     count = len(ahead)
     step = ahead - vertices[:count]
     direction = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
@@ -64,7 +89,7 @@ def _chord_polygon(
         np.arange(count, dtype=np.float64), direction, vertices[:count].copy(), piece[:count].copy(),
         parameter[:count].copy(), (Role.CHORD,) * count,
     )  # fmt: skip
-    return CurvePolygon(vertices, edges, _turning(direction, curve.closed), curve.closed, deviation)
+    return CurvePolygon(vertices, edges, _turning(direction, closed), closed, deviation)
 
 
 def _turning(direction: Floats, closed: bool) -> Floats:
@@ -74,9 +99,10 @@ def _turning(direction: Floats, closed: bool) -> Floats:
     return np.concatenate([[first - 2 * np.pi * np.rint(first / (2 * np.pi))], np.diff(direction)])
 
 
-def _sagitta(vertices: Floats, middles: Floats, closed: bool) -> float:
+def _sagitta(vertices: Floats, arcs: Floats, closed: bool) -> float:
+    """Largest distance of points (k, e, 2 or 3) on the arcs from the chords (e,) under them."""
     ahead = np.roll(vertices, -1, axis=0) if closed else vertices[1:]
     chord = ahead - vertices[: len(ahead)]
-    away = middles - vertices[: len(ahead)]
-    twice_area = chord[:, 0] * away[:, 1] - chord[:, 1] * away[:, 0]
-    return float(np.max(np.abs(twice_area) / np.linalg.norm(chord, axis=1)))
+    away = arcs - vertices[: len(ahead)]
+    share = np.sum(away * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(np.float64).tiny)
+    return float(np.linalg.norm(away - share[..., None] * chord, axis=-1).max())

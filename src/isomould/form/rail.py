@@ -21,12 +21,13 @@ class Rail:
     R : (n, 3) float, mm
         Rail nodes.
     A, C : (n, 3) float
-        Images of the profile's d and z axes at each node; |A| = 1/cos(α/2).
+        Images of the profile's d and z axes at each node; on a planar rail |A| = 1/cos(α/2) and C is the normal.
     directions, outward : (m, 3) float
         Unit directions and outside normals of the m edges (m = n if closed, else n − 1).
     lengths : (m,) float, mm
     turning : (n,) float, rad
-        Signed turning, positive away from the outside; at an open end that of its mitre (0 if square).
+        Signed turning, positive away from the outside, and without sign in space; at an open end that of its mitre
+        (0 if square).
     inner : (n,) bool
         False at open ends.
     closed : bool
@@ -41,6 +42,7 @@ class Rail:
     turning: Floats
     inner: Bools
     closed: bool
+    twist: float = 0.0
 
     def __post_init__(self) -> None:
         for array in (
@@ -59,6 +61,13 @@ class Rail:
     def flat(self) -> Bools:
         """True (n,) at inner nodes that do not turn."""
         return self.inner & (np.abs(self.turning) <= FLAT)
+
+    @property
+    def growth(self) -> Floats:
+        """Growth (m, 2) of a parallel's edges per mm of d and of z (geometry §3)."""
+        following = (np.arange(len(self.lengths)) + 1) % len(self.R)
+        steps = np.stack([self.A[following], self.C[following]]) - np.stack([self.A, self.C])[:, : len(self.lengths)]
+        return np.einsum("kij,ij->ik", steps, self.directions)
 
 
 def planar_rail(polygon: CurvePolygon, plane: Plane, ends: Ends) -> Rail:

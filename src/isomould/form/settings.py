@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 from isomould.settings import Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 
-Kind = Literal["isogonal", "moulding", "edge-offset"]
+Kind = Literal["isogonal", "moulding", "monge", "edge-offset"]
 Inflections = Literal["nearest", "refuse"]
 
 

@@ -48,14 +48,11 @@ def node_axes(surface: Surface) -> Floats:
 
 
 def parallel_lengths(rail: Rail, offsets: Floats) -> Floats:
-    """Signed lengths (m, e) mm of the parallels' edges: `L_j + d_i (tan(α_j/2) + tan(α_{j+1}/2))` (geometry §3)."""
-    return rail.lengths + np.multiply.outer(offsets, _growth(rail))
+    """Signed lengths (m, e) mm of the edges of parallels at offsets (m, 2): d and z (geometry §3).
 
-
-def _growth(rail: Rail) -> Floats:
-    """Growth (e,) of a parallel's edges per mm of offset."""
-    tangent = np.tan(rail.turning / 2)
-    return tangent + np.roll(tangent, -1) if rail.closed else tangent[:-1] + tangent[1:]
+    `L' = L + d (A[j+1] − A[j])·e + z (C[j+1] − C[j])·e`; on a planar rail `L + d (tan(α_j/2) + tan(α_{j+1}/2))`.
+    """
+    return rail.lengths + offsets @ rail.growth.T
 
 
 def refuse_flips(surface: Surface, depth: float, min_member: float) -> None:
@@ -67,9 +64,10 @@ def refuse_flips(surface: Surface, depth: float, min_member: float) -> None:
         Naming parallel, strip, offset and the largest admissible offset.
     """
     profile = surface.profile
-    _refuse_parallels(surface.rail, profile.d, min_member)
+    place, field = np.column_stack([profile.d, profile.z]), np.column_stack([profile.a, profile.b])
+    _refuse_parallels(surface.rail, place, min_member)
     for side in (-depth / 2, depth / 2):
-        _refuse_parallels(surface.rail, profile.d + side * profile.a, 0.0)
+        _refuse_parallels(surface.rail, place + side * field, 0.0)
         _refuse_generatrices(profile, side)
     _refuse_short_generatrices(profile, min_member)
 
@@ -79,17 +77,28 @@ def _refuse_parallels(rail: Rail, offsets: Floats, limit: float) -> None:
     if lengths.min() > limit:
         return
     i, j = np.unravel_index(int(np.argmin(lengths)), lengths.shape)
-    growth = _growth(rail)[j]
+    away = _away(rail.growth[j])
+    growth, offset = float(rail.growth[j] @ away), float(offsets[i] @ away)
     admissible = (limit - rail.lengths[j]) / growth if growth else rail.lengths[j]
     flips = lengths[i, j] <= 0
     raise Refused(
         "E-SURFACE-FLIP" if flips else "E-SURFACE-SHORT",
         "generatrix.curve" if flips else "tolerances.min_member",
         f"parallel {i} {'flips' if flips else 'shrinks'} to {lengths[i, j]:.3f} mm in strip {j}: its offset from the "
-        f"rail is {offsets[i]:.3f} mm",
+        f"rail is {offset:.3f} mm{_said(away)}",
         f"{'at least' if growth > 0 else 'at most'} {admissible:.3f} mm there for members of {limit:g} mm",
         "Move the generatrix (generatrix.origin), flatten the rail, or divide it more coarsely.",
     )
+
+
+def _away(growth: Floats) -> Floats:
+    """Unit direction (2,) in (d, z), rather outside than inside, in which edges grow or shrink most."""
+    size = float(np.hypot(*growth))
+    return growth / size * np.sign(growth[np.argmax(np.abs(growth))]) if size else np.array([1.0, 0.0])
+
+
+def _said(away: Floats) -> str:
+    return f" along (d, z) = ({away[0]:.3f}, {away[1]:.3f})" if away[1] else ""
 
 
 def _refuse_generatrices(profile: Profile, side: float) -> None:

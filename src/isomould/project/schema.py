@@ -27,12 +27,26 @@ class RailTable(Settings):
 
     curve: CurveSettings
     plane: PlaneSettings = "xy"
-    outside: Literal["outer", "inner"] | tuple[Number, Number]
+    outside: Literal["outer", "inner"] | tuple[Number, Number] | None = None
+    """Of a planar rail, required."""
+    up: tuple[Number, Number, Number] | None = None
+    """Of a rail in space, required."""
     divide: RailDivide = RailDivide()
     ends: Ends | None = None
     """Default: mitred for edge offset meshes, square for all others."""
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+
+    @model_validator(mode="after")
+    def _plane_or_space(self) -> "RailTable":
+        if self.up is None and self.outside is None:
+            message = "outside is missing: say where the outside of the rail lies (or up, for a rail in space)"
+            raise ValueError(message)
+        planar = sorted(self.model_fields_set & {"plane", "outside", "ends", "inflections", "flat_nodes"})
+        if self.up is not None and planar:
+            message = f"{' and '.join(planar)} cannot stand beside up: they are for planar rails"
+            raise ValueError(message)
+        return self
 
 
 class GeneratrixTable(Settings):
@@ -82,7 +96,14 @@ class Project(Settings):
     @model_validator(mode="after")
     def _kind_fits_division(self) -> "Project":
         kind, rail, generatrix = self.surface.kind, self.rail.divide, self.generatrix.divide
-        if kind != "moulding" and rail.nodes is None and rail.angle_deg is None:
+        by_angle = rail.nodes is not None or rail.angle_deg is not None
+        if (kind == "monge") != (self.rail.up is not None):
+            message = "surface.kind = 'monge' and rail.up = [x, y, z] go together: a rail in space"
+            raise ValueError(message)
+        if kind == "monge" and (by_angle or rail.first_deg is not None):
+            message = "a rail in space is divided by rail.divide = {stations}, or as drawn: its tangents do not meet"
+            raise ValueError(message)
+        if kind in {"isogonal", "edge-offset"} and not by_angle:
             message = (
                 f"surface.kind = '{kind}' has one turning angle: it needs rail.divide = {{nodes}} or {{angle_deg}}"
             )

@@ -12,13 +12,13 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 
 def evaluate(piece: Json, t: Floats) -> Floats:
-    """Give point, first and second derivative by t, (3, n, 2)."""
+    """Give point, first and second derivative by t, (3, n, 2), or (3, n, 3) for a piece in space."""
     kind = piece["kind"]
     if kind == "bezier":
         return _bezier(np.array(piece["points"], dtype=np.float64), np.array(piece["weights"], dtype=np.float64), t)
     if kind == "line":
         start, end = np.array(piece["start"], dtype=np.float64), np.array(piece["end"], dtype=np.float64)
-        return _affine(start, end - start, np.zeros(2), (t, np.ones_like(t), 0 * t), (0 * t, 0 * t, 0 * t))
+        return _affine(start, end - start, 0 * start, (t, np.ones_like(t), 0 * t), (0 * t, 0 * t, 0 * t))
     return _transcendental(piece, t)
 
 
@@ -49,16 +49,16 @@ def _bezier(points: Floats, weights: Floats, t: Floats) -> Floats:
     n = len(rows) - 1
     h0, h1 = _bernstein(rows, t), n * _bernstein(np.diff(rows, axis=0), t)
     h2 = n * (n - 1) * _bernstein(np.diff(rows, 2, axis=0), t)
-    w0, w1, w2 = h0[:, 2:], h1[:, 2:], h2[:, 2:]
-    p0 = h0[:, :2] / w0
-    p1 = (h1[:, :2] - p0 * w1) / w0
-    return np.stack((p0, p1, (h2[:, :2] - 2 * p1 * w1 - p0 * w2) / w0))
+    w0, w1, w2 = h0[:, -1:], h1[:, -1:], h2[:, -1:]
+    p0 = h0[:, :-1] / w0
+    p1 = (h1[:, :-1] - p0 * w1) / w0
+    return np.stack((p0, p1, (h2[:, :-1] - 2 * p1 * w1 - p0 * w2) / w0))
 
 
 def _bernstein(rows: Floats, t: Floats) -> Floats:
     n = len(rows) - 1
     if n < 0:
-        return np.zeros((len(t), 3))
+        return np.zeros((len(t), rows.shape[1]))
     basis = np.stack([comb(n, k) * t**k * (1 - t) ** (n - k) for k in range(n + 1)], axis=1)
     return basis @ rows
 

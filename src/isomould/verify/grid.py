@@ -8,6 +8,7 @@ import numpy as np
 from isomould.verify.read.design import Design, Line, edge_vectors
 from isomould.verify.read.mesh import Mesh, faces_by_size
 from isomould.verify.rules import Bools, Floats, Ints, NotApplicable
+from isomould.verify.space import recomputed_in_space
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +63,11 @@ def recomputed(design: Design, ends: tuple[str, str]) -> Floats:
     """Compute the grid anew: offset lines of the rail cut by its mitre planes, (m, n, 3) mm (geometry §3).
 
     The line at distance d_i from a rail edge meets the bisecting plane of the rail vertex. `ends` says for
-    the two open ends "square" (the plane is perpendicular to the edge) or "mitred" (as at one more node).
+    the two open ends "square" (the plane is perpendicular to the edge) or "mitred" (as at one more node); those of a
+    rail in space are square.
     """
-    assert design.plane is not None
+    if design.plane is None:
+        return recomputed_in_space(design)
     before, after = rail_sides(design.rail, ends)
     d, z = design.generatrix.vertices[:, :1], design.generatrix.vertices[:, 1]
     outward = np.column_stack((after[:, 1], -after[:, 0]))

@@ -8,16 +8,17 @@ from isomould.verify.curve import distance_to, evaluate, turned_at
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.design import Line, edge_vectors
 from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, worse, worst_of
+from isomould.verify.space import frame_gap
 
 ANGLE = 1e-11
 LENGTH = 1e-6
 _EPS = float(np.finfo(np.float64).eps)
 
 
-def _both(delivery: Delivery, measure: Callable[[str, Line], Measured]) -> Measured:
-    """Measure the lines that lie in a plane; not applicable only if no line can answer."""
+def _both(delivery: Delivery, measure: Callable[[str, Line], Measured], *, in_space: bool = False) -> Measured:
+    """Measure the lines, a rail in space only if told to; not applicable only if no line can answer."""
     lines = {"generatrix": delivery.design.generatrix}
-    if delivery.design.plane is not None:
+    if delivery.design.plane is not None or in_space:
         lines = {"rail": delivery.design.rail, **lines}
     found, answers = list[Measured](), list[str]()
     for name, line in lines.items():
@@ -109,7 +110,7 @@ def deviation(delivery: Delivery) -> Measured:
     """Largest distance of a polygon vertex from its curve; the limit is the project's, if it gives one."""
     given = delivery.design.raw["limits"]["max_deviation_mm"]
     limit = np.inf if given is None else float(given)
-    found = _both(delivery, _deviation)
+    found = _both(delivery, _deviation, in_space=True)
     return Measured(found.count, found.worst, found.where, limit)
 
 
@@ -119,7 +120,13 @@ def _deviation(name: str, line: Line) -> Measured:
 
 
 def closing(delivery: Delivery) -> Measured:
-    """Measure how far the edges of closed lines, the closing one too, leave their directions (mm)."""
+    """Measure how far the edges of closed lines, the closing one too, leave their directions (mm).
+
+    Of a closed rail in space, measure how far its frame misses itself.
+    """
+    design = delivery.design
+    if design.plane is None and design.rail.closed:
+        return worst_of([frame_gap(design)], ["frame of the rail"])
     return _both(delivery, _closing)
 
 

@@ -6,7 +6,7 @@ from isomould.verify.delivery import Delivery
 from isomould.verify.grid import Grid, ends_of, grid_of, recomputed, regular_nodes
 from isomould.verify.read.design import edge_vectors as line_edges
 from isomould.verify.read.mesh import Mesh, edge_vectors
-from isomould.verify.rules import Floats, Ints, Measured, NotApplicable, Rule, faults, worse, worst_of
+from isomould.verify.rules import Floats, Ints, Measured, Rule, faults, worse, worst_of
 
 LENGTH = 1e-6
 
@@ -89,9 +89,7 @@ def flips(delivery: Delivery) -> Measured:
 def _reference(delivery: Delivery, edges: Floats) -> Floats:
     """Give the direction that each edge must not oppose: the rail's for parallels, its own for the others."""
     mesh, design = delivery.mesh, delivery.design
-    if design.plane is None:
-        return edges
-    along = line_edges(design.rail) @ design.plane[1:]
+    along = line_edges(design.rail) @ (np.eye(3) if design.plane is None else design.plane[1:])
     ruled = (mesh.edge_family == "parallel") & _starts_on_grid(mesh)
     strip = np.where(ruled, mesh.node_ij[mesh.edges[:, 0], 1], 0)
     return np.where(ruled[:, None], along[np.minimum(strip, len(along) - 1)], edges)
@@ -105,8 +103,6 @@ def positions(delivery: Delivery) -> Measured:
     """Distance of grid nodes from where offset lines and mitre planes of the design's polygons put them."""
     mesh, design = delivery.mesh, delivery.design
     grid = grid_of(mesh, design)
-    if design.plane is None:
-        raise NotApplicable("a spatial rail is not made of offset lines in one plane")
     known = grid.index >= 0
     expected = recomputed(design, ends_of(design, mesh, grid))[known]
     off = np.linalg.norm(mesh.nodes[grid.index[known]] - expected, axis=1)
