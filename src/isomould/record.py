@@ -6,7 +6,7 @@ from typing import Any
 from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.design import Design
-from isomould.form.polygon import CurvePolygon
+from isomould.form.polygon import CurvePolygon, Role
 from isomould.nesting.settings import StockSettings
 
 
@@ -52,7 +52,9 @@ def _describe_line(curve: PlanarCurve, polygon: CurvePolygon) -> dict[str, Any]:
         "turning": _with_nulls(polygon.turning),
         "declared": polygon.angle,
         "deviation_mm": polygon.deviation,
-        "edges": [{"role": role.value, "contact": [piece, t]} for role, piece, t in contacts],
+        "edges": [
+            {"role": role.value, "contact": None if role is Role.GAP else [piece, t]} for role, piece, t in contacts
+        ],
     }
 
 

@@ -11,11 +11,11 @@ from isomould.curves.plane import Plane
 from isomould.errors import Note, Refused
 from isomould.form.division import Request, divide_curve
 from isomould.form.edge_offset import divide_for_edge_offset
-from isomould.form.lattice import KoebeLattice
+from isomould.form.lattice import half_width
 from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import make_profile
 from isomould.form.rail import Ends, planar_rail
-from isomould.form.settings import GeneratrixDivide, SurfaceSettings
+from isomould.form.settings import SurfaceSettings
 from isomould.form.surface import Surface, make_surface, refuse_flips
 
 
@@ -63,26 +63,27 @@ def make_form(
     rail_request, generatrix_request = requests
     rail = divide_curve(rail_curve, rail_request)
     _hold_to_one_angle(rail, settings)
-    generatrix, lattice = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
+    generatrix, parallels, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
     _refuse_size(rail, generatrix, rail_request)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
     edge_offset = settings.kind == "edge-offset"
     frame = planar_rail(rail, plane, ends or ("mitred" if edge_offset else "square"))
-    surface = make_surface(frame, make_profile(generatrix, lattice))
+    surface = make_surface(frame, make_profile(generatrix, parallels))
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    return Form(surface, rail, generatrix, (*_turning_notes(rail), *_flat_notes(rail, edge_offset)))
+    notes = (*_turning_notes(rail), *pole_notes)
+    if edge_offset:
+        notes += _flat_notes(rail, surface, depth)
+    return Form(surface, rail, generatrix, notes)
 
 
 def _divide_generatrix(
     curve: PlanarCurve, rail: CurvePolygon, request: Request, settings: SurfaceSettings
-) -> tuple[CurvePolygon, KoebeLattice | None]:
-    divide = request.divide
-    if settings.kind != "edge-offset" or not isinstance(divide, GeneratrixDivide):
-        return divide_curve(curve, request), None
-    limit = float(np.radians(settings.min_pole_angle_deg))
-    return divide_for_edge_offset(curve, rail.angle or 0.0, divide.phase or "centre", limit, request)
+) -> tuple[CurvePolygon, Floats | None, tuple[Note, ...]]:
+    if settings.kind != "edge-offset":
+        return divide_curve(curve, request), None, ()
+    return divide_for_edge_offset(curve, rail.angle or 0.0, settings, request)
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
@@ -99,7 +100,7 @@ def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
 
 def _refuse_size(rail: CurvePolygon, generatrix: CurvePolygon, request: Request) -> None:
     """Forecast the panels before anything large is made (failure mode J1)."""
-    count = len(rail.edges.index) * len(generatrix.edges.index)
+    count = len(rail.edges.index) * int(np.count_nonzero(~generatrix.gap))
     if count > request.limits.max_panels:
         raise Refused(
             "E-SIZE",
@@ -161,9 +162,12 @@ def _turning_notes(rail: CurvePolygon) -> tuple[Note, ...]:
     return (Note("W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than 30°"),)
 
 
-def _flat_notes(rail: CurvePolygon, edge_offset: bool) -> tuple[Note, ...]:
+def _flat_notes(rail: CurvePolygon, surface: Surface, depth: float) -> tuple[Note, ...]:
+    """Say what flat rail nodes cost: at them parallels run square to the node axis, generatrices do not."""
     flat = int(np.count_nonzero(np.abs(np.nan_to_num(rail.turning, nan=1.0)) <= FLAT))
-    if not (edge_offset and flat):
+    if flat == 0:
         return ()
-    text = f"{flat} flat rail nodes: their beams do not meet exactly (see the mismatch of the nodes)"
+    rise = float(half_width(surface.profile.latitude[~surface.profile.gap], rail.angle or 0.0).max())
+    cost = depth / 2 * (1 / np.cos(rise) - 1)
+    text = f"{flat} flat rail nodes: their beams do not meet exactly, but up to {cost:.3f} mm apart"
     return (Note("W-RAIL-FLAT", "rail.flat_nodes", text),)

@@ -93,7 +93,7 @@ def _refuse_parallels(rail: Rail, offsets: Floats, limit: float) -> None:
 
 
 def _refuse_generatrices(profile: Profile, side: float) -> None:
-    lengths = profile.lengths + side * _stretch(profile)
+    lengths = np.where(profile.gap, np.inf, profile.lengths + side * _stretch(profile))
     if lengths.min() > 0:
         return
     row = int(np.argmin(lengths))
@@ -116,7 +116,7 @@ def _stretch(profile: Profile) -> Floats:
 
 
 def _refuse_short_generatrices(profile: Profile, limit: float) -> None:
-    row = int(np.argmin(profile.lengths))
+    row = int(np.argmin(np.where(profile.gap, np.inf, profile.lengths)))
     if profile.lengths[row] > limit:
         return
     raise Refused(
