@@ -1,6 +1,7 @@
 """A museum of named designs for tests: the oracles of the mathematics and the shapes of the paper."""
 
 import json
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +88,11 @@ SMALL: dict[str, Any] = {
     },
 }
 """A vault of 8 × 6 nodes with sheets and bars in stock: quick to build, everything in it."""
+
+
+def template(name: str) -> dict[str, Any]:
+    """Give the tables of a template."""
+    return tomllib.loads((TEMPLATES / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:

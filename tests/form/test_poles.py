@@ -9,9 +9,9 @@ import pytest
 import isomould
 from isomould.errors import Refused
 from isomould.form.edge_offset import edge_offset_residual
-from isomould.form.mesh import Family
+from isomould.form.mesh import Family, NodeKind
 from isomould.verify import verify_folder
-from museum import EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere, write_project
+from museum import EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere, template, write_project
 
 TORUS = changed(
     sphere(30, 30),
@@ -268,3 +268,23 @@ class TestResidual:
         latitude[3] += 1e-4
         off = np.flatnonzero(np.abs(edge_offset_residual(latitude, form.rail.angle)) > 1e-6)
         assert off.tolist() == [2, 3]
+
+
+class TestTemplates:
+    def test_torus(self):
+        kit = design(template("torus")).kit
+        assert kit.mesh.shape == (32, 24)
+        assert (len(kit.mesh.face_ij), euler(kit.mesh)) == (720, 0)
+        assert (len(kit.nodes.marks), len(kit.panels.marks)) == (16, 16)
+        assert kit.mismatch.max() < 1e-9
+
+    def test_corrugated_vault(self):
+        result = design(template("corrugated-vault"))
+        mesh, nodes = result.kit.mesh, result.kit.nodes
+        assert len(mesh.nodes) == 693
+        assert len(set(nodes.classes.of[mesh.kind == NodeKind.INTERIOR])) == 8
+        assert len(set(nodes.classes.of[mesh.kind == NodeKind.FLAT])) == 1
+        generatrices = mesh.nodes[mesh.edges[mesh.family == Family.GENERATRIX]]
+        assert len(set(np.linalg.norm(generatrices[:, 1] - generatrices[:, 0], axis=1).round(6))) == 8
+        curve = result.rail.point(np.array([0, 0, 0]), np.array([0.0, 0.5, 1.0]))
+        assert (curve[1, 1] - curve[0, 1]) / abs(curve[2, 0] - curve[0, 0]) == pytest.approx(0.375)
