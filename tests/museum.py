@@ -1,6 +1,7 @@
 """A museum of named designs for tests: the oracles of the mathematics and the shapes of the paper."""
 
 import json
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -115,6 +116,11 @@ MONGE: dict[str, Any] = {
     "surface": {"kind": "monge"},
 }
 """A vault of 6 × 7 nodes over a polyline in space."""
+
+
+def template(name: str) -> dict[str, Any]:
+    """Give the tables of a template."""
+    return tomllib.loads((TEMPLATES / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:

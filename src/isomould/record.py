@@ -70,7 +70,9 @@ def _describe_edges(polygon: CurvePolygon) -> dict[str, Any]:
     return {
         "directions": edges.direction.tolist(),
         "declared": polygon.angle,
-        "edges": [{"role": role.value, "contact": [piece, t]} for role, piece, t in contacts],
+        "edges": [
+            {"role": role.value, "contact": None if role is Role.GAP else [piece, t]} for role, piece, t in contacts
+        ],
     }
 
 

@@ -23,7 +23,11 @@ def projects(draw):
     wave = {"kind": "sine", "amplitude": draw(st.integers(100, 500)), "wavelength": 7000, "waves": 1}
     bow = {"kind": "arc", "span": 6000, "rise": draw(st.integers(300, 1500))}
     generatrix = draw(st.sampled_from([wave, bow]))
-    divide = {"phase": "centre"} if kind == "edge-offset" else {"nodes": draw(st.integers(3, 9))}
+    divide = (
+        {"phase": draw(st.sampled_from(["centre", "node", "fit"]))}
+        if kind == "edge-offset"
+        else {"nodes": draw(st.integers(3, 9))}
+    )
     return {
         "schema": 1,
         "project": {"name": "Random"},

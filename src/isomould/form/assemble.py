@@ -14,11 +14,11 @@ from isomould.errors import Note, Refused
 from isomould.form.division import Request, divide_curve, refuse_size
 from isomould.form.edge_offset import divide_for_edge_offset
 from isomould.form.frame import refuse_twist, spatial_rail
-from isomould.form.lattice import KoebeLattice
+from isomould.form.lattice import half_width
 from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import make_profile
 from isomould.form.rail import Ends, Rail, planar_rail
-from isomould.form.settings import GeneratrixDivide, SurfaceSettings
+from isomould.form.settings import SurfaceSettings
 from isomould.form.spatial import SpatialPolygon, divide_in_space
 from isomould.form.surface import Surface, make_surface, refuse_flips
 
@@ -77,15 +77,17 @@ def make_form(
     """
     rail_request, generatrix_request = requests
     rail, frame = _make_rail(drawn, rail_request, settings)
-    generatrix, lattice = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
-    refuse_size(len(rail.lengths) * len(generatrix.lengths), rail_request.limits)
+    generatrix, parallels, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
+    refuse_size(len(rail.lengths) * int(np.count_nonzero(~generatrix.gap)), rail_request.limits)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
-    surface = make_surface(frame, make_profile(generatrix, lattice))
+    surface = make_surface(frame, make_profile(generatrix, parallels))
     refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    notes = (*_turning_notes(rail), *_flat_notes(rail, settings.kind == "edge-offset"), *_sagitta_notes(rail))
+    notes = (*_turning_notes(rail), *pole_notes, *_sagitta_notes(rail))
+    if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
+        notes += _flat_notes(rail, surface, depth)
     return Form(surface, rail, generatrix, notes)
 
 
@@ -103,12 +105,10 @@ def _make_rail(
 
 def _divide_generatrix(
     curve: PlanarCurve, rail: CurvePolygon | SpatialPolygon, request: Request, settings: SurfaceSettings
-) -> tuple[CurvePolygon, KoebeLattice | None]:
-    divide = request.divide
-    if settings.kind != "edge-offset" or not isinstance(divide, GeneratrixDivide) or isinstance(rail, SpatialPolygon):
-        return divide_curve(curve, request), None
-    limit = float(np.radians(settings.min_pole_angle_deg))
-    return divide_for_edge_offset(curve, rail.angle or 0.0, divide.phase or "centre", limit, request)
+) -> tuple[CurvePolygon, Floats | None, tuple[Note, ...]]:
+    if settings.kind != "edge-offset" or isinstance(rail, SpatialPolygon):
+        return divide_curve(curve, request), None, ()
+    return divide_for_edge_offset(curve, rail.angle or 0.0, settings, request)
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
@@ -180,11 +180,14 @@ def _turning_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:
     return (Note("W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than 30°"),)
 
 
-def _flat_notes(rail: CurvePolygon | SpatialPolygon, edge_offset: bool) -> tuple[Note, ...]:
+def _flat_notes(rail: CurvePolygon, surface: Surface, depth: float) -> tuple[Note, ...]:
+    """Say what flat rail nodes cost: at them parallels run square to the node axis, generatrices do not."""
     flat = int(np.count_nonzero(np.abs(np.nan_to_num(rail.turning, nan=1.0)) <= FLAT))
-    if not (edge_offset and flat):
+    if flat == 0:
         return ()
-    text = f"{flat} flat rail nodes: their beams do not meet exactly (see the mismatch of the nodes)"
+    rise = float(half_width(surface.profile.latitude[~surface.profile.gap], rail.angle or 0.0).max())
+    cost = depth / 2 * (1 / np.cos(rise) - 1)
+    text = f"{flat} flat rail nodes: their beams do not meet exactly, but up to {cost:.3f} mm apart"
     return (Note("W-RAIL-FLAT", "rail.flat_nodes", text),)
 
 

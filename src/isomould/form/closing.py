@@ -4,19 +4,19 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
+from isomould.curves.turning import Spans
 from isomould.errors import Refused
 from isomould.form.deviation import curve_distance
 from isomould.form.polygon import CurvePolygon, Edges, foot, joints
 
 
-def open_polygon(curve: PlanarCurve, edges: Edges, min_end: float, field: str) -> CurvePolygon:
-    """Close the ends of an open curve by the feet of the perpendiculars from its ends (geometry §2, §5).
+def open_polygon(curve: PlanarCurve, turns: Spans, edges: Edges, min_end: float, field: str) -> CurvePolygon:
+    """Close the ends of a stretch of curve by the feet of the perpendiculars from its ends (geometry §2, §5).
 
     An end edge shorter than `min_end` (mm) is dropped: a lattice with a prescribed angle or slope stops anywhere.
     """
     _refuse_few(len(edges.index), 2, field)
-    places = np.array([0, len(curve.pieces) - 1]), np.array([0.0, 1.0])
-    start, end = curve.point(*places)
+    start, end = end_points(curve, turns)
     inner = joints(edges)
     first = foot(edges, 0, start)
     last = foot(edges, len(edges.index) - 1, end)
@@ -24,8 +24,13 @@ def open_polygon(curve: PlanarCurve, edges: Edges, min_end: float, field: str) -
     keep = np.ones(len(edges.index), dtype=bool)
     keep[[0, -1]] = polygon.lengths[[0, -1]] >= min_end
     if not keep.all() and min_end > 0:
-        return open_polygon(curve, edges.take(np.flatnonzero(keep)), min_end, field)
+        return open_polygon(curve, turns, edges.take(np.flatnonzero(keep)), min_end, field)
     return _forward(polygon, field)
+
+
+def end_points(curve: PlanarCurve, turns: Spans) -> Floats:
+    """Give both ends (2, 2) mm of the stretch of curve that the spans cover."""
+    return curve.point(turns.piece[[0, -1]], np.array([turns.t0[0], turns.t1[-1]]))
 
 
 def closed_polygon(curve: PlanarCurve, edges: Edges, full: float, field: str) -> CurvePolygon:

@@ -90,7 +90,7 @@ def _divide_open(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePol
     edges = tangent_edges(curve, turns, lattice, request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     shortest = request.limits.min_member if request.divide.angle_deg is not None else 0.0
-    return open_polygon(curve, edges, shortest, request.field)
+    return open_polygon(curve, turns, edges, shortest, request.field)
 
 
 def _open_lattice(turns: Spans, runs: Arcs, request: Request) -> EvenLattice:
@@ -128,11 +128,11 @@ def _equal_arcs(runs: Arcs, field: str) -> float:
 def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePolygon:
     runs = arcs(turns)
     total = float((turns.theta1 - turns.theta0).sum())
-    _refuse_not_simple(total, request.field)
+    refuse_not_simple(total, request.field)
     count = _closed_count(runs, request)
     step = 2 * np.pi / count
     _check_angle(step, runs, request)
-    walk = _from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
+    walk = from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
     lattice = EvenLattice(float(walk.theta0[0]), step)
     _refuse_incommensurable(walk, arcs(walk), lattice, request)
     edges = tangent_edges(curve, walk, lattice, request.field)
@@ -172,7 +172,7 @@ def _whole_turns(angle_deg: float, field: str) -> int:
     return round(count)
 
 
-def _from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float, field: str) -> Spans:
+def from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float, field: str) -> Spans:
     """Cut a closed curve's spans open at its outermost tangent of direction `first` (rad).
 
     The drawing's start point has no influence: of several tangents with this direction, the one that supports the
@@ -239,7 +239,8 @@ def refuse_straight(runs: Arcs, field: str) -> None:
         )
 
 
-def _refuse_not_simple(total: float, field: str) -> None:
+def refuse_not_simple(total: float, field: str) -> None:
+    """Refuse closed curves that do not turn round once (failure mode B7)."""
     turns = total / (2 * np.pi)
     if abs(abs(turns) - 1) > 1e-6:
         raise Refused(

@@ -4,21 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 
+from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans, arcs
-from isomould.errors import Refused
+from isomould.errors import Note, Refused
 from isomould.form.closing import open_polygon
-from isomould.form.division import Request, refuse_straight, smooth_spans
-from isomould.form.lattice import KoebeLattice, koebe_lattice
-from isomould.form.polygon import CurvePolygon
-from isomould.form.settings import SlopePhase
+from isomould.form.division import Request, from_direction, refuse_not_simple, refuse_straight, smooth_spans
+from isomould.form.lattice import KoebeLattice, half_width
+from isomould.form.phase import choose_lattice
+from isomould.form.poles import chain, strips_between_poles
+from isomould.form.polygon import FLAT, CurvePolygon, joints
+from isomould.form.settings import GeneratrixDivide, SlopePhase, SurfaceSettings
 from isomould.form.tangents import split_at_inflections, tangent_edges
 
 
 def divide_for_edge_offset(
-    curve: PlanarCurve, turning: float, phase: str | SlopePhase, min_pole_angle: float, request: Request
-) -> tuple[CurvePolygon, KoebeLattice]:
-    """Divide an open generatrix into the slopes of an edge offset mesh (paper §4.3, geometry §5).
+    curve: PlanarCurve, turning: float, settings: SurfaceSettings, request: Request
+) -> tuple[CurvePolygon, Floats, tuple[Note, ...]]:
+    """Divide a generatrix into the slopes of an edge offset mesh (paper §4.3, geometry §5).
 
     Parameters
     ----------
@@ -26,42 +29,135 @@ def divide_for_edge_offset(
         Generatrix in coordinates (d, z), its outside to the right.
     turning
         The rail's constant |α|, rad.
-    phase
-        "centre", "node", or the normal latitude of one edge.
-    min_pole_angle
-        How near (rad) an edge's normal may come to the rail's axis.
+    settings
+        How near the normal may come to the rail's axis, and what becomes of the poles.
     request
-        For the limits and field names.
+        Phase, limits and field names.
+
+    Returns
+    -------
+    polygon
+        Open, with a gap at every pole that the generatrix passes.
+    parallels : (n,) float, rad
+        Latitudes λ of its vertices on the Koebe mesh.
+    notes
+        What was left out at poles.
     """
-    turns = _upright(smooth_spans(curve, request.field))
+    turns = _upright(curve, request.field)
     refuse_straight(arcs(turns), request.field)
-    lattice = koebe_lattice(turning, np.radians(phase.slope_deg) if isinstance(phase, SlopePhase) else phase)
-    _refuse_pole(turns, lattice, min_pole_angle, request.field)
-    edges = tangent_edges(curve, turns, lattice, request.field)
+    strips, cut = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
+    if not strips or (cut and settings.pole == "refuse"):
+        _refuse_pole(curve, turns, strips, turning, settings, request)
+    divided = [_divide_strip(curve, strip, turning, request) for strip in strips]
+    polygon, parallels = chain([strip for strip, _ in divided]), np.concatenate([own for _, own in divided])
+    return polygon, parallels, _pole_notes(len(strips), settings) if cut else ()
+
+
+def edge_offset_residual(latitude: Floats, turning: float) -> Floats:
+    """How far consecutive rows of a moulding mesh are from those of an edge offset mesh (geometry §5).
+
+    Parameters
+    ----------
+    latitude : (e,) float, rad
+        Latitudes m of the profile edges' normals, in order.
+    turning : float, rad
+        The rail's constant |α|.
+
+    Returns
+    -------
+    (e − 1,) float, rad
+        `m_{i+1} − σ h_{i+1} − m_i − σ h_i` with σ = sign(m_{i+1} − m_i), 0 at all vertices of an edge offset
+        mesh. Equal slopes share a latitude whatever they are.
+    """
+    step = np.where(np.abs(np.diff(latitude)) <= FLAT, 0.0, np.diff(latitude))
+    return step - np.sign(step) * (half_width(latitude[:-1], turning) + half_width(latitude[1:], turning))
+
+
+def vertex_parallels(polygon: CurvePolygon, lattice: KoebeLattice) -> Floats:
+    """Latitudes λ (n,) of the vertices: what the two edges of a vertex share (geometry §5).
+
+    Edge k lies between λ_k and λ_{k+1}. Edges k and k ± 1 share λ of the larger index. A flat node inside an
+    edge may take either latitude of that edge, and takes that of the vertex before it. An open end takes the one
+    that its edge does not share.
+    """
+    index = polygon.edges.index
+    shared = np.concatenate([[np.nan], np.maximum(index[:-1], index[1:]), [np.nan]])
+    shared[0] = _other_end(index[0], _first_shared(index, shared))
+    for flat in np.flatnonzero(index[:-1] == index[1:]) + 1:
+        shared[flat] = shared[flat - 1]
+    shared[-1] = _other_end(index[-1], shared[-2])
+    return lattice.latitude(shared)
+
+
+def _first_shared(index: Floats, shared: Floats) -> float:
+    """Latitude index at the first vertex that turns, where the first edge ends even if a flat node divides it."""
+    turns = np.flatnonzero(np.diff(index))
+    return float(shared[turns[0] + 1]) if len(turns) else float(index[0])
+
+
+def _other_end(edge: float, shared: float) -> float:
+    """Latitude index at the free end of an end edge, whose other end has the index `shared`."""
+    return edge if shared == edge + 1 else edge + 1
+
+
+def _divide_strip(curve: PlanarCurve, strip: Spans, turning: float, request: Request) -> tuple[CurvePolygon, Floats]:
+    """Divide a stretch of the generatrix without poles."""
+    lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
+    edges = tangent_edges(curve, strip, lattice, request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
-    return open_polygon(curve, edges, request.limits.min_member, request.field), lattice
+    polygon = open_polygon(curve, strip, edges, request.limits.min_member, request.field)
+    return polygon, vertex_parallels(polygon, lattice)
 
 
-def _upright(turns: Spans) -> Spans:
-    """Bring the directions of a generatrix into the branch around π/2, where normals have latitude 0."""
-    middle = (turns.theta0.min() + turns.theta1.max()) / 2
+def _pole_notes(strips: int, settings: SurfaceSettings) -> tuple[Note, ...]:
+    text = f"nothing is built nearer than {settings.min_pole_angle_deg:g}° to a pole: {strips} strips with open ends"
+    return (Note("W-GENERATRIX-POLE", "surface.pole", text),)
+
+
+def _phase(request: Request) -> str | SlopePhase:
+    divide = request.divide
+    return (divide.phase if isinstance(divide, GeneratrixDivide) else None) or "centre"
+
+
+def _upright(curve: PlanarCurve, field: str) -> Spans:
+    """Give the spans in the branch around π/2, where normals have latitude 0; a closed curve begins there."""
+    turns = smooth_spans(curve, field)
+    if curve.closed:
+        refuse_not_simple(float((turns.theta1 - turns.theta0).sum()), field)
+        turns = from_direction(curve, turns, np.pi / 2, 1.0, field)
+    middle = turns.theta0[0] if curve.closed else (turns.theta0.min() + turns.theta1.max()) / 2
     shift = 2 * np.pi * np.rint((np.pi / 2 - middle) / (2 * np.pi))
     return replace(turns, theta0=turns.theta0 + shift, theta1=turns.theta1 + shift)
 
 
-def _refuse_pole(turns: Spans, lattice: KoebeLattice, min_angle: float, field: str) -> None:
+def _refuse_pole(
+    curve: PlanarCurve, turns: Spans, strips: tuple[Spans, ...], turning: float, settings: SurfaceSettings,
+    request: Request,
+) -> None:  # fmt: skip
     """Refuse normals too near the rail's axis, with the rows that it would take (failure mode C1)."""
-    slopes = np.concatenate([turns.theta0, turns.theta1]) - np.pi / 2
-    steepest = float(np.abs(slopes).max())
-    limit = np.pi / 2 - min_angle
-    if steepest <= limit:
-        return
-    rows = int(np.ceil((np.arctanh(np.tan(limit / 2)) - lattice.start) / lattice.step))
+    limit = 90 - settings.min_pole_angle_deg
     raise Refused(
         "E-GENERATRIX-POLE",
         "generatrix.curve",
-        f"its normal comes within {90 - np.degrees(steepest):.4f}° of the rail's axis, a pole that an edge offset mesh "
-        f"never reaches ({rows} rows lead from the phase to the limit)",
-        f"at least surface.min_pole_angle_deg = {np.degrees(min_angle):g}°",
-        f"Cut the generatrix where its normal's latitude is {np.degrees(limit):g}°.",
+        f"its normal {_reach(turns)}, a pole that an edge offset mesh never reaches"
+        + "".join(_forecast(curve, strip, turning, limit, request) for strip in strips[:1]),
+        f"at least surface.min_pole_angle_deg = {settings.min_pole_angle_deg:g}°",
+        f"Cut the generatrix where its normal's latitude is {limit:g}°, or leave a gap there: surface.pole = 'open'.",
     )
+
+
+def _reach(turns: Spans) -> str:
+    every = np.concatenate([turns.theta0, turns.theta1])
+    if np.floor(every.min() / np.pi) != np.ceil(every.max() / np.pi) - 1:
+        return "passes the direction of the rail's axis"
+    nearest = np.degrees(np.abs(every - np.pi * np.rint(every / np.pi)).min())
+    return f"comes within {nearest:.4f}° of the rail's axis"
+
+
+def _forecast(curve: PlanarCurve, strip: Spans, turning: float, limit_deg: float, request: Request) -> str:
+    """Say how many rows lead from the phase to the limit, and how high the lowest of them is."""
+    lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
+    rows = int(np.ceil((np.arctanh(np.tan(np.radians(limit_deg) / 2)) - lattice.start) / lattice.step))
+    heights = np.linalg.norm(np.diff(joints(tangent_edges(curve, strip, lattice, request.field)), axis=0), axis=1)
+    lowest = f", the lowest of them {heights.min():.1f} mm high" if len(heights) else ""
+    return f" ({rows} rows lead from the phase to the limit{lowest})"

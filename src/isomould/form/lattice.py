@@ -50,11 +50,13 @@ class KoebeLattice:
 
     The latitudes `λ_k = 2 atan(tanh(start + k·artanh s))`, s = sin(turning/2), are those of the parallels of
     a Koebe mesh; the profile edge between λ_k and λ_{k+1} has the normal latitude m_k = (λ_k + λ_{k+1})/2 and
-    the tangent direction m_k + π/2.
+    the tangent direction m_k + π/2. Between two poles, on the half with normals from half·π − π/2 to
+    half·π + π/2, the mesh is the image of the first under a point reflection for every odd `half`.
     """
 
     turning: float
     start: float
+    half: int = 0
 
     @property
     def step(self) -> float:
@@ -63,34 +65,37 @@ class KoebeLattice:
 
     def latitude(self, index: Floats) -> Floats:
         """Latitudes λ (n,) rad of the parallels with the indices (n,)."""
-        return 2 * np.arctan(np.tanh(self.start + self.step * index))
+        return self.half * np.pi + 2 * np.arctan(np.tanh(self.start + self.step * index))
 
     def direction(self, index: Floats) -> Floats:
-        """Tangent directions (n,) rad in (0, π)."""
+        """Tangent directions (n,) rad in (0, π) + half·π."""
         return (self.latitude(index) + self.latitude(index + 1)) / 2 + np.pi / 2
 
     def index(self, direction: Floats) -> Floats:
-        """Real-valued indices (n,) of tangent directions (n,) rad in (0, π)."""
-        slope = direction - np.pi / 2
+        """Real-valued indices (n,) of tangent directions (n,) rad in (0, π) + half·π."""
+        slope = direction - np.pi / 2 - self.half * np.pi
         lower = slope - half_width(slope, self.turning)
         return (np.arctanh(np.tan(lower / 2)) - self.start) / self.step
 
 
 def half_width(slope: Floats, turning: float) -> Floats:
     """Half the latitude step h (rad) between the ends of an edge with normal latitude `slope` (geometry §5)."""
-    return np.arcsin(np.sin(turning / 2) * np.cos(slope))
+    return np.arcsin(np.sin(turning / 2) * np.abs(np.cos(slope)))
 
 
-def koebe_lattice(turning: float, phase: str | float) -> KoebeLattice:
+def koebe_lattice(turning: float, phase: str | float, half: int = 0) -> KoebeLattice:
     """Give the lattice for a rail turning angle (rad) and a phase: "centre", "node" or a first slope (rad).
+
+    A slope m is that of an edge on the outer half, and π − m on the inner one (`half` odd).
 
     >>> round(float(np.degrees(koebe_lattice(np.radians(5), "centre").latitude(np.array(1.0)))), 12)
     2.5
     """
     step = float(np.arctanh(np.sin(turning / 2)))
     if phase == "centre":
-        return KoebeLattice(turning, -step / 2)
+        return KoebeLattice(turning, -step / 2, half)
     if phase == "node":
-        return KoebeLattice(turning, 0.0)
-    first = float(phase) - float(half_width(np.array(float(phase)), turning))
-    return KoebeLattice(turning, float(np.arctanh(np.tan(first / 2))))
+        return KoebeLattice(turning, 0.0, half)
+    slope = float(phase) * (-1) ** half
+    first = slope - float(half_width(np.array(slope), turning))
+    return KoebeLattice(turning, float(np.arctanh(np.tan(first / 2))), half)

@@ -91,14 +91,11 @@ def make_mesh(surface: Surface) -> Mesh:
     parallels, generatrices = surface.V.shape[:2]
     closed = (surface.profile.closed, surface.rail.closed)
     number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
-    up, along = number[: parallels - (not closed[0])], number[:, : generatrices - (not closed[1])]
-    rows, strips = up.shape[0], along.shape[1]
+    rows, strips = np.flatnonzero(~surface.profile.gap), generatrices - (not closed[1])
     above, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
-    corner = number[:rows, :strips]
-    quads = np.stack(
-        [corner, beside[:rows, :strips], np.roll(above, -1, axis=1)[:rows, :strips], above[:rows, :strips]]
-    )
-    edges = [np.stack([up, above[:rows]]), np.stack([along, beside[:, :strips]])]
+    up, along, corner = number[rows], number[:, :strips], number[rows, :strips]
+    quads = np.stack([corner, beside[rows, :strips], np.roll(above, -1, axis=1)[rows, :strips], above[rows, :strips]])
+    edges = [np.stack([up, above[rows]]), np.stack([along, beside[:, :strips]])]
     first = np.concatenate([up.ravel(), along.ravel()])
     return Mesh(
         nodes=surface.V.reshape(-1, 3),

@@ -9,7 +9,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints, read_only
+from isomould.arrays import Bools, Floats, Ints, read_only
 
 
 class Role(StrEnum):
@@ -19,6 +19,8 @@ class Role(StrEnum):
     INFLECTION = "inflection"
     STRAIGHT = "straight"
     CHORD = "chord"
+    GAP = "gap"
+    """No edge at all: between the strips on the two sides of a pole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,11 +70,11 @@ class CurvePolygon:
     Attributes
     ----------
     vertices : (n, 2) float, mm
-        n = m + 1 on an open curve, n = m on a closed one.
+        n = m + 1 on an open polygon, n = m on a closed one.
     edges : Edges
         The m edges.
     turning : (n,) float, rad
-        Signed turning at each vertex, positive to the left; 0 at flat nodes, NaN at open ends.
+        Signed turning at each vertex, positive to the left; 0 at flat nodes, NaN at open ends and beside gaps.
     closed : bool
     deviation : float, mm
         Largest distance of a vertex from the curve.
@@ -94,6 +96,11 @@ class CurvePolygon:
         ahead = np.roll(self.vertices, -1, axis=0) if self.closed else self.vertices[1:]
         steps = ahead - self.vertices[: len(ahead)]
         return np.einsum("ij,ij->i", steps, unit(self.edges.direction))
+
+    @property
+    def gap(self) -> Bools:
+        """True (m,) where an edge is a gap."""
+        return np.array([role is Role.GAP for role in self.edges.role])
 
     @property
     def angle(self) -> float | None:

@@ -6,7 +6,6 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Bools, Floats, read_only
-from isomould.form.lattice import KoebeLattice
 from isomould.form.polygon import FLAT, CurvePolygon
 
 Offset = Literal["face", "edge"]
@@ -27,6 +26,8 @@ class Profile:
     lengths : (e,) float, mm
     inner, flat : (m,) bool
         Vertices that are no open ends; those that do not turn.
+    gap : (e,) bool
+        Edges that are none: the profile is open there.
     closed : bool
     offset : "face" or "edge"
     """
@@ -39,27 +40,28 @@ class Profile:
     lengths: Floats
     inner: Bools
     flat: Bools
+    gap: Bools
     closed: bool
     offset: Offset
 
     def __post_init__(self) -> None:
-        for name in ("d", "z", "a", "b", "latitude", "lengths", "inner", "flat"):
+        for name in ("d", "z", "a", "b", "latitude", "lengths", "inner", "flat", "gap"):
             read_only(getattr(self, name))
 
 
-def make_profile(polygon: CurvePolygon, lattice: KoebeLattice | None) -> Profile:
-    """Give the profile with the face offset, or with the edge offset of a Koebe lattice.
+def make_profile(polygon: CurvePolygon, parallels: Floats | None) -> Profile:
+    """Give the profile with the face offset, or with the edge offset of a Koebe mesh.
 
     Parameters
     ----------
     polygon
         The divided generatrix in coordinates (d, z), its outside to the right.
-    lattice
-        The lattice that the polygon's directions came from, for edge offset meshes; None for the others.
+    parallels : (m,) float, rad
+        Latitudes λ of the vertices' parallels on the Koebe mesh, for edge offset meshes; None for the others.
     """
     latitude = polygon.edges.direction - np.pi / 2
     turning = np.nan_to_num(polygon.turning)
-    a, b = _face_offset(polygon, latitude) if lattice is None else _edge_offset(polygon, lattice)
+    a, b = _face_offset(polygon, latitude) if parallels is None else (np.cos(parallels), np.sin(parallels))
     inner = np.isfinite(polygon.turning)
     return Profile(
         d=polygon.vertices[:, 0].copy(),
@@ -70,8 +72,9 @@ def make_profile(polygon: CurvePolygon, lattice: KoebeLattice | None) -> Profile
         lengths=polygon.lengths,
         inner=inner,
         flat=inner & (np.abs(turning) <= FLAT),
+        gap=polygon.gap,
         closed=polygon.closed,
-        offset="face" if lattice is None else "edge",
+        offset="face" if parallels is None else "edge",
     )
 
 
@@ -90,26 +93,3 @@ def _face_offset(polygon: CurvePolygon, latitude: Floats) -> tuple[Floats, Float
         middle[0] = latitude[0] - polygon.turning[0] / 2
         reach[0] = np.cos(polygon.turning[0] / 2)
     return np.cos(middle) / reach, np.sin(middle) / reach
-
-
-def _edge_offset(polygon: CurvePolygon, lattice: KoebeLattice) -> tuple[Floats, Floats]:
-    """Latitudes λ of the vertices: what the two edges of a vertex share (geometry §5).
-
-    Edge k lies between λ_k and λ_{k+1}. Edges k and k ± 1 share λ of the larger index. A flat node inside an
-    edge may take either latitude of that edge, and takes that of the vertex before it. An open end takes the one
-    that its edge does not share.
-    """
-    before, after = (side.copy() for side in beside(polygon, polygon.edges.index))
-    shared = np.maximum(before, after)
-    for flat in np.flatnonzero(before[1:-1] == after[1:-1]) + 1:
-        shared[flat] = shared[flat - 1]
-    if not polygon.closed:
-        shared[0] = _other_end(polygon.edges.index[0], shared[1])
-        shared[-1] = _other_end(polygon.edges.index[-1], shared[-2])
-    latitude = lattice.latitude(shared)
-    return np.cos(latitude), np.sin(latitude)
-
-
-def _other_end(edge: float, shared: float) -> float:
-    """Latitude index at the free end of an end edge, whose other end has the index `shared`."""
-    return edge if shared == edge + 1 else edge + 1

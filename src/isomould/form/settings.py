@@ -21,10 +21,17 @@ def _at_least_one(value: int) -> int:
 PositiveCount = Annotated[Count, AfterValidator(_at_least_one)]
 
 
+def _acute(value: float) -> float:
+    if abs(value) >= 90:
+        message = f"{value:g}° must lie between -90° and 90°"
+        raise ValueError(message)
+    return value
+
+
 class SlopePhase(Settings):
     """Phase of an edge offset mesh by the normal latitude of one edge."""
 
-    slope_deg: Number
+    slope_deg: Annotated[Number, AfterValidator(_acute)]
 
 
 class RailDivide(Settings):
@@ -48,7 +55,7 @@ class GeneratrixDivide(Settings):
     angle_deg: PositiveNumber | None = None
     per_arc: PositiveCount | None = None
     stations: PositiveCount | tuple[Length, ...] | None = None
-    phase: Literal["centre", "node"] | SlopePhase | None = None
+    phase: Literal["centre", "node", "fit"] | SlopePhase | None = None
     first_deg: Number | None = None
 
     @model_validator(mode="after")
@@ -76,6 +83,7 @@ class SurfaceSettings(Settings):
 
     kind: Kind = "isogonal"
     min_pole_angle_deg: Annotated[PositiveNumber, Field(lt=90)] = 5.0
+    pole: Literal["refuse", "open"] = "refuse"
 
 
 class FormLimits(Settings):

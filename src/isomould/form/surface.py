@@ -102,7 +102,7 @@ def _said(away: Floats) -> str:
 
 
 def _refuse_generatrices(profile: Profile, side: float) -> None:
-    lengths = profile.lengths + side * _stretch(profile)
+    lengths = np.where(profile.gap, np.inf, profile.lengths + side * _stretch(profile))
     if lengths.min() > 0:
         return
     row = int(np.argmin(lengths))
@@ -125,7 +125,7 @@ def _stretch(profile: Profile) -> Floats:
 
 
 def _refuse_short_generatrices(profile: Profile, limit: float) -> None:
-    row = int(np.argmin(profile.lengths))
+    row = int(np.argmin(np.where(profile.gap, np.inf, profile.lengths)))
     if profile.lengths[row] > limit:
         return
     raise Refused(

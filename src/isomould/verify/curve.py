@@ -101,6 +101,12 @@ def turned_at(pieces: tuple[Json, ...], contacts: list[tuple[int, float]], *, cl
     return np.array([before[k] + turned_within(pieces[k], t) for k, t in contacts]), round_trip
 
 
+def is_loop(pieces: tuple[Json, ...]) -> bool:
+    """Tell whether a curve ends where it starts."""
+    start, end = evaluate(pieces[0], np.zeros(1))[0, 0], evaluate(pieces[-1], np.ones(1))[0, 0]
+    return bool(np.linalg.norm(end - start) <= 1e-6)
+
+
 def distance_to(pieces: tuple[Json, ...], points: Floats) -> Floats:
     """Give the distance of each point to the curve, mm: dense samples, then Newton steps to the foot."""
     t = np.linspace(0.0, 1.0, 129)

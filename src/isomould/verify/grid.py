@@ -17,6 +17,8 @@ class Grid:
 
     index: Ints
     closed: tuple[bool, bool]
+    gap: Bools
+    """True (rows,) where the profile is open between a parallel and the next."""
 
     def beside(self, di: int, dj: int) -> Ints:
         """Give for every (i, j) the node at (i + di, j + dj), -1 where there is none."""
@@ -24,6 +26,8 @@ class Grid:
         for axis, step in enumerate((di, dj)):
             if step and not self.closed[axis]:
                 np.moveaxis(found, axis, 0)[-1 if step > 0 else 0] = -1
+        if di:
+            found[np.flatnonzero(self.gap) + (di < 0)] = -1
         return found
 
 
@@ -32,7 +36,7 @@ def grid_of(mesh: Mesh, design: Design) -> Grid:
     shape = (len(design.generatrix.vertices), len(design.rail.vertices))
     index, regular = np.full(shape, -1, dtype=np.int64), regular_nodes(mesh)
     index[tuple(mesh.node_ij[regular].T)] = regular
-    return Grid(index, (design.generatrix.closed, design.rail.closed))
+    return Grid(index, (design.generatrix.closed, design.rail.closed), design.generatrix.gap)
 
 
 def regular_nodes(mesh: Mesh) -> Ints:

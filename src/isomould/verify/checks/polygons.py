@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from isomould.verify.curve import distance_to, evaluate, turned_at
+from isomould.verify.curve import distance_to, evaluate, is_loop, turned_at
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.design import Line, edge_vectors
 from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, worse, worst_of
@@ -44,8 +44,10 @@ def _turning(name: str, line: Line) -> Measured:
         found, steps, declared = found[1:], steps[1:], line.turning[1:-1]
     else:
         declared = line.turning
+    inner = np.flatnonzero(line.inner if line.closed else line.inner[1:-1])
+    found, steps, declared = found[inner], steps[inner], declared[inner]
     off = [_wrapped(found - declared), _wrapped(steps - declared), _off_lattice(line, declared)]
-    names = [f"{name} vertex {k + (not line.closed)}" for k in range(len(declared))]
+    names = [f"{name} vertex {k + (not line.closed)}" for k in inner]
     limit = max(ANGLE, 8 * _EPS * abs(line.vertices).max() / np.linalg.norm(edges, axis=1).min())
     return worst_of(np.max(np.abs(off), axis=0), names, limit=float(limit), none=f"the {name} has no inner vertex")
 
@@ -75,18 +77,26 @@ def _curvature(name: str, line: Line) -> Measured:
     if len(tangents) < 2:
         raise NotApplicable(f"the {name} has fewer than two tangent edges")
     contacts = [contact for k in tangents if (contact := line.contacts[k]) is not None]
-    angles, round_trip = turned_at(line.curve, contacts, closed=line.closed)
+    loop = line.closed or is_loop(line.curve)
+    angles, round_trip = turned_at(line.curve, contacts, closed=loop)
     passed = np.array([here > there for here, there in zip(contacts, contacts[1:] + contacts[:1], strict=True)])
-    curved = np.roll(angles, -1) - angles + np.where(passed & line.closed, round_trip, 0.0)
+    curved = np.roll(angles, -1) - angles + np.where(passed & loop, round_trip, 0.0)
     summed = np.array([_between(line, a, b) for a, b in zip(tangents, tangents[1:] + tangents[:1], strict=True)])
     count = len(tangents) if line.closed else len(tangents) - 1
-    return worst_of(abs(curved - summed)[:count], [f"{name} edge {k}" for k in tangents])
+    apart = np.array([_apart(line, a, b) for a, b in zip(tangents, tangents[1:] + tangents[:1], strict=True)])
+    off = np.where(apart, 0.0, abs(curved - summed))
+    return worst_of(off[:count], [f"{name} edge {k}" for k in tangents])
 
 
 def _between(line: Line, a: int, b: int) -> float:
     """Sum the turning of the vertices from edge a on to edge b, round the end of a closed line if need be."""
     after = line.turning[a + 1 : b + 1] if b > a else np.concatenate((line.turning[a + 1 :], line.turning[: b + 1]))
     return float(after.sum())
+
+
+def _apart(line: Line, a: int, b: int) -> bool:
+    """Tell whether a gap lies between edge a and edge b."""
+    return bool(line.gap[a:b].any() if b > a else line.gap[a:].any() or line.gap[:b].any())
 
 
 def tangency(delivery: Delivery) -> Measured:

@@ -59,8 +59,9 @@ def _rows_in(rows: Ints, others: Ints) -> np.ndarray[tuple[int], np.dtype[np.boo
 def _grid_faults(mesh: Mesh, grid: Grid, sides: Ints) -> list[str]:
     """Check an untrimmed mesh against its numbers m, n and closed directions."""
     m, n = grid.index.shape
-    rows, strips = m - (not grid.closed[0]), n - (not grid.closed[1])
-    border = (2 * strips if rows < m else 0) + (2 * rows if strips < n else 0)
+    gaps = int(grid.gap.sum())
+    rows, strips = m - (not grid.closed[0]) - gaps, n - (not grid.closed[1])
+    border = (2 * strips * (m - rows)) + (2 * rows if strips < n else 0)
     edges, times = np.unique(_undirected(sides), axis=0, return_counts=True)
     expected = {"faces": rows * strips, "members": rows * n + m * strips, "sides in one face": border}
     found = {
@@ -69,8 +70,8 @@ def _grid_faults(mesh: Mesh, grid: Grid, sides: Ints) -> list[str]:
         "sides in one face": int((times == 1).sum()),
     }
     problems = [f"{found[k]} {k}, expected {expected[k]} of {m} × {n}" for k in expected if found[k] != expected[k]]
-    number, disc = len(mesh.nodes) - len(edges) + len(mesh.face_ij), not any(grid.closed)
-    return problems + ([] if number == disc else [f"V − E + F = {number}, expected {int(disc)}"])
+    number, discs = len(mesh.nodes) - len(edges) + len(mesh.face_ij), (m - rows) * (n - strips)
+    return problems + ([] if number == discs else [f"V − E + F = {number}, expected {discs}"])
 
 
 def flips(delivery: Delivery) -> Measured:

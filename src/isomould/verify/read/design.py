@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from isomould.verify.read.text import Json, read_json, refusing
-from isomould.verify.rules import Floats
+from isomould.verify.rules import Bools, Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,7 +15,7 @@ class Line:
     """A rail or generatrix: input curve and the polygon made of it.
 
     `vertices` (n, 2 or 3) mm; `directions` (edges,) rad; `turning` (n,) rad, NaN at open ends; `contacts`
-    of the edges are (piece, t) or None.
+    of the edges are (piece, t) or None. Turning is NaN beside an edge of the role "gap" too.
     """
 
     closed: bool
@@ -26,6 +26,17 @@ class Line:
     declared: float | None
     roles: tuple[str, ...]
     contacts: tuple[tuple[int, float] | None, ...]
+
+    @property
+    def gap(self) -> Bools:
+        """True (edges,) where the line is open: between strips that no member or panel joins."""
+        return np.array([role == "gap" for role in self.roles])
+
+    @property
+    def inner(self) -> Bools:
+        """True (n,) at vertices with an edge on both sides."""
+        none = self.gap
+        return ~(none | np.roll(none, 1)) if self.closed else ~(np.append(True, none) | np.append(none, True))
 
 
 @dataclass(frozen=True, eq=False)
