@@ -286,5 +286,5 @@ class TestTemplates:
         assert len(set(nodes.classes.of[mesh.kind == NodeKind.FLAT])) == 1
         generatrices = mesh.nodes[mesh.edges[mesh.family == Family.GENERATRIX]]
         assert len(set(np.linalg.norm(generatrices[:, 1] - generatrices[:, 0], axis=1).round(6))) == 8
-        curve = result.rail.point(np.array([0, 0, 0]), np.array([0.0, 0.5, 1.0]))
+        curve = result.rail.curve.point(np.array([0, 0, 0]), np.array([0.0, 0.5, 1.0]))
         assert (curve[1, 1] - curve[0, 1]) / abs(curve[2, 0] - curve[0, 0]) == pytest.approx(0.375)
