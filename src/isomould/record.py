@@ -7,6 +7,7 @@ from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.design import Design
 from isomould.form.polygon import CurvePolygon
+from isomould.form.trim import make_cut
 from isomould.nesting.settings import StockSettings
 
 
@@ -20,6 +21,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         "plane": {name: getattr(plane, name).tolist() for name in ("origin", "x_axis", "y_axis")},
         "rail": _describe_line(design.rail, design.form.rail),
         "generatrix": _describe_line(design.generatrix, design.form.generatrix),
+        **_trim(design),
         "ends": project.rail.ends or ("mitred" if project.surface.kind == "edge-offset" else "square"),
         "member": _member(design),
         "node": _node(design),
@@ -39,6 +41,14 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         "layers": dict(project.deliver.layers),
         "counts": _counts(design),
     }
+
+
+def _trim(design: Design) -> dict[str, Any]:
+    """Planes by a point and the unit normal towards what was kept; nothing for a surface that was not trimmed."""
+    asked = design.project.surface
+    cuts = [make_cut(table, "surface.trim") for table in asked.trim]
+    planes = [{"origin": cut.origin.tolist(), "normal": cut.normal.tolist()} for cut in cuts]
+    return {"trim": planes, "sill": asked.sill} if planes else {}
 
 
 def _describe_line(curve: PlanarCurve, polygon: CurvePolygon) -> dict[str, Any]:
