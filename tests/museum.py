@@ -123,6 +123,38 @@ def template(name: str) -> dict[str, Any]:
     return tomllib.loads((TEMPLATES / f"{name}.toml").read_text(encoding="utf-8"))
 
 
+def dome(radius: float, nodes: int = 8, scale: float = 1.0) -> dict[str, Any]:
+    """Oracle F: a dome on an upright spline; `radius` (m, scaled too) is the generatrix's at the apex. Untrimmed."""
+    points = ((-9, -4.5), (-8.4, 0.2), (-4, 3.9), (4, 3.9), (8.4, 0.2), (9, -4.5))
+    rise = 4.1
+    span = 2 * (2 * radius * rise) ** 0.5
+    return {
+        "schema": 1,
+        "project": {"name": "Dome"},
+        "rail": {
+            "curve": {"kind": "bspline", "units": "m", "points": [[scale * x, scale * y] for x, y in points]},
+            "plane": "xz",
+            "outside": [0, 1],
+            "divide": {"nodes": nodes},
+        },
+        "generatrix": {
+            "curve": {"kind": "parabola", "span": 1000 * scale * span, "rise": 1000 * scale * rise},
+            "origin": [-1000 * scale * rise, 0],
+            "axes": "zd",
+            "divide": {"phase": "centre"},
+        },
+        "surface": {"kind": "edge-offset"},
+        "members": {"section": {"kind": "plate", "depth": 120, "thickness": 10}},
+        "panels": {"gap": 12, "seat_width": 50, "thickness": 10},
+    }
+
+
+def trimmed(data: dict[str, Any], *planes: dict[str, Any], sill: bool = True) -> dict[str, Any]:
+    """Give a project cut by planes, by default the ground."""
+    ground = {"plane": {"z": 0}, "keep": "above"}
+    return changed(data, surface={"trim": list(planes or (ground,)), "sill": sill})
+
+
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:
     """Compute a design from the tables of a project."""
     return make_design(validate(data, "museum"), folder)

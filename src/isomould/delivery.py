@@ -130,7 +130,7 @@ def _instances(delivery: Delivery) -> list[Instance]:
     posed = (
         (kit.nodes, node_poses(kit.mesh, kit.nodes)),
         (kit.members, member_poses(kit.mesh, kit.members)),
-        (kit.panels, panel_poses(kit.panels)),
+        (kit.panels, panel_poses(kit.mesh, kit.panels)),
     )
     return [
         Instance(mark, where, pose)

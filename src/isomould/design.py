@@ -15,6 +15,7 @@ from isomould.form.division import Request
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
+from isomould.form.trim import trim_mesh
 from isomould.parts.kit import Kit, KitSettings, make_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
@@ -49,8 +50,9 @@ def make_design(project: Project, folder: Path) -> Design:
         project.surface,
         project.members.section.depth,
     )
-    kit = make_kit(make_mesh(form.surface), kit_settings(project))
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *kit.notes)
+    mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
+    kit = make_kit(mesh, kit_settings(project))
+    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *kit.notes)
     return Design(project, rail, generatrix, form, kit, notes)
 
 

@@ -10,6 +10,7 @@ from isomould.design import Design
 from isomould.form.assemble import RailInSpace
 from isomould.form.polygon import CurvePolygon, Role
 from isomould.form.spatial import SpatialPolygon
+from isomould.form.trim import make_cut
 from isomould.nesting.settings import StockSettings
 
 
@@ -22,6 +23,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         "offset": design.form.surface.profile.offset,
         **_describe_rail(design),
         "generatrix": _describe_line(design.generatrix, design.form.generatrix),
+        **_trim(design),
         "ends": project.rail.ends or ("mitred" if project.surface.kind == "edge-offset" else "square"),
         "member": _member(design),
         "node": _node(design),
@@ -51,6 +53,14 @@ def _describe_rail(design: Design) -> dict[str, Any]:
         return {"plane": None, "up": drawn.up.tolist(), "rail": line}
     plane = {name: getattr(drawn.plane, name).tolist() for name in ("origin", "x_axis", "y_axis")}
     return {"plane": plane, "rail": line}
+
+
+def _trim(design: Design) -> dict[str, Any]:
+    """Planes by a point and the unit normal towards what was kept; nothing for a surface that was not trimmed."""
+    asked = design.project.surface
+    cuts = [make_cut(table, "surface.trim") for table in asked.trim]
+    planes = [{"origin": cut.origin.tolist(), "normal": cut.normal.tolist()} for cut in cuts]
+    return {"trim": planes, "sill": asked.sill} if planes else {}
 
 
 def _describe_line(curve: PlanarCurve | SpatialCurve, polygon: CurvePolygon | SpatialPolygon) -> dict[str, Any]:

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 from isomould.form.mesh import Family, NodeKind
 from isomould.parts.nodes import classify_nodes
 from isomould.parts.quality import beam_mismatch
 from isomould.parts.settings import CongruenceSettings
-from museum import EDGE_OFFSET_VAULT, VAULT, changed, design, sphere
+from museum import EDGE_OFFSET_VAULT, VAULT, changed, design, dome, sphere
 
 FINE = {"length": 1e-6, "angle_deg": 1e-6}
 
@@ -127,6 +128,33 @@ class TestOracleE:
         one, two = design(data), design(other)
         assert one.kit.mesh.shape == two.kit.mesh.shape
         assert signatures(one) == signatures(two)
+
+
+class TestOracleF:
+    """Domes (Table 4): the panel at the apex is as long for its width as the principal radii are."""
+
+    points = np.array([(-9, -4.5), (-8.4, 0.2), (-4, 3.9), (4, 3.9), (8.4, 0.2), (9, -4.5)])
+
+    def apex_radius(self) -> float:
+        """Radius of curvature (m) of the clamped cubic B-spline at its apex, by scipy."""
+        curve = BSpline(np.array([0, 0, 0, 0, 1, 2, 3, 3, 3, 3]), self.points, 3)
+        first, second = curve(1.5, 1), curve(1.5, 2)
+        return float(np.linalg.norm(first) ** 3 / abs(first[0] * second[1] - first[1] * second[0]))
+
+    def aspect(self, radius: float, nodes: int) -> float:
+        """Larger over smaller mean of opposite edges of the panel at the apex."""
+        surface = design(dome(radius, nodes, scale=5.0)).form.surface
+        i, j = (n // 2 - 1 for n in surface.V.shape[:2])
+        a, b, c, d = surface.V[i, j], surface.V[i, j + 1], surface.V[i + 1, j + 1], surface.V[i + 1, j]
+        mean = [np.linalg.norm(p - q) + np.linalg.norm(r - s) for p, q, r, s in ((a, b, c, d), (b, c, d, a))]
+        return float(max(mean) / min(mean))
+
+    @pytest.mark.parametrize("radius", [2.9, 5.2, 9.3])
+    def test_aspect_at_the_apex(self, radius):
+        ratio = self.apex_radius() / radius
+        off = [abs(self.aspect(radius, nodes) / ratio - 1) for nodes in (48, 98)]
+        assert off[0] < 0.02
+        assert off[1] < off[0]
 
 
 class TestOracleG:

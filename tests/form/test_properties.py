@@ -70,7 +70,7 @@ def check_promises(data):
         assume(False)
         return
     kit, mesh = result.kit, result.kit.mesh
-    corners = mesh.nodes[mesh.quads]
+    corners = mesh.nodes[mesh.table(mesh.faces)]
     assert distance_from_plane(corners).max() < 1e-6
     sides = corners - np.roll(corners, -1, axis=1)
     unit = sides / np.linalg.norm(sides, axis=2)[..., None]

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 import shapely
 
+from isomould.errors import Refused
 from isomould.parts.outline import area
 from isomould.parts.strips import unroll_strips
-from museum import VAULT, design, sphere
+from museum import SMALL, VAULT, changed, design, sphere
 
 
 def face_areas(mesh):
-    corners = mesh.nodes[mesh.quads]
+    corners = mesh.nodes[mesh.table(mesh.faces)]
     diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     return np.linalg.norm(np.cross(*diagonals), axis=1) / 2
 
@@ -39,6 +40,12 @@ def test_strips_along_generatrices_are_straighter():
     assert max(strip.sagitta for strip in ribs[1:-1]) < 1e-6  # all panels are isosceles
     assert max(strip.sagitta for strip in ribs) < 50  # the square ends cut theirs in half
     assert max(strip.sagitta for strip in rings) > 1000
+
+
+def test_trimmed_strips_are_refused():
+    data = changed(SMALL, surface={"trim": [{"plane": {"z": "0.9 m"}, "keep": "above"}]})
+    with pytest.raises(Refused, match=r"deliver\.strips"):
+        unroll_strips(design(data).kit.mesh, "generatrix")
 
 
 def test_a_strip_is_counter_clockwise_and_simple():

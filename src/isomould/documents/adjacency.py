@@ -29,7 +29,7 @@ class Neighbours:
 
 
 def find_neighbours(mesh: Mesh, arm_rows: Ints, arms: Arms, face_edges: Ints) -> Neighbours:
-    """Look up the neighbours of nodes and edges; `face_edges` (f, 4) are the edges under the faces' sides."""
+    """Look up the neighbours of nodes and edges; `face_edges` (k,) are the edges under the faces' sides, or −1."""
     node_edges = np.where(arm_rows >= 0, arms.edge[arm_rows], -1)
     return Neighbours(node_edges, _sectors(mesh, node_edges, face_edges), _sides(mesh, face_edges))
 
@@ -37,19 +37,25 @@ def find_neighbours(mesh: Mesh, arm_rows: Ints, arms: Arms, face_edges: Ints) ->
 def _sectors(mesh: Mesh, node_edges: Ints, face_edges: Ints) -> Ints:
     """The face after an arm is the one whose side leaves the node along that arm's edge."""
     count = len(mesh.edges)
-    key = (mesh.quads * count + face_edges).ravel()
+    side = np.flatnonzero(face_edges >= 0)
+    face, key = _faces(mesh)[side], (mesh.faces * count + face_edges)[side]
     order = np.argsort(key)
     asked = np.arange(len(mesh.nodes))[:, None] * count + node_edges
     place = np.minimum(np.searchsorted(key[order], asked), len(key) - 1)
     found = (key[order][place] == asked) & (node_edges >= 0)
-    return np.where(found, order[place] // face_edges.shape[1], -1)
+    return np.where(found, face[order[place]], -1)
+
+
+def _faces(mesh: Mesh) -> Ints:
+    """Give the face (k,) of every corner."""
+    return mesh.per_corner(np.arange(len(mesh.face_ij)))
 
 
 def _sides(mesh: Mesh, face_edges: Ints) -> Ints:
     sides = np.full((len(mesh.edges), 2), -1, dtype=np.int64)
-    face = np.repeat(np.arange(len(face_edges)), face_edges.shape[1])
-    edge = face_edges.ravel()
-    forwards = mesh.edges[edge, 0] == mesh.quads.ravel()
+    there = face_edges >= 0
+    face, edge = _faces(mesh)[there], face_edges[there]
+    forwards = mesh.edges[edge, 0] == mesh.faces[there]
     sides[edge[forwards], 0] = face[forwards]
     sides[edge[~forwards], 1] = face[~forwards]
     return sides

@@ -52,6 +52,7 @@ def _round(value: float) -> float:
 def _node_facts(kit: Kit) -> tuple[Fact, ...]:
     """Node classes by kind: the regular ones are the inner ones that are not flat."""
     words = {NodeKind.INTERIOR: "regular interior", NodeKind.FLAT: "flat", NodeKind.BOUNDARY: "boundary"}
+    words |= {NodeKind.SUPPORT: "support"} if (kit.nodes.kind == NodeKind.SUPPORT).any() else {}
     counts = [(word, int(np.count_nonzero(kit.nodes.kind == kind))) for kind, word in words.items()]
     return (
         ("Node classes", len(kit.nodes.marks), ""),

@@ -72,12 +72,12 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Column
     bar = asked.diameter_step * np.ceil(np.round((drum.diameter + asked.bar_allowance) / asked.diameter_step, 9))
     blank = np.round(drum.height + asked.facing_allowance, 6)
     deviation = _worst(nodes.deviation, nodes.classes.of, count)
-    slots = [len(arms.azimuth) for arms in nodes.arms]
+    slots = [len(arms.slotted.azimuth) for arms in nodes.arms]
     return {
         "mark": list(nodes.marks),
         "quantity": nodes.classes.quantity.tolist(),
         "kind": [NodeKind(kind).word for kind in nodes.kind],
-        "valence": slots,
+        "valence": [len(arms.azimuth) for arms in nodes.arms],
         "handed": list(nodes.handed),
         **_arm_columns(kit, settings.members.section.name),
         "drum_diameter_mm": [drum.diameter] * count,
@@ -198,19 +198,15 @@ def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, f
 
 def _panels(kit: Kit, settings: PanelSettings) -> Columns:
     panels = kit.panels
-    lengths = np.array([sides(outline) for outline in panels.outlines])
+    whole = [not piece for piece in kit.mesh.face_piece[panels.classes.representative]]
     size = np.array([np.ptp(outline, axis=0) for outline in panels.outlines])
     areas = np.array([area(outline) for outline in panels.outlines]) / 1e6
-    diagonals = np.array([np.linalg.norm(o[[2, 3]] - o[[0, 1]], axis=1) for o in panels.outlines])
-    angles = np.degrees(np.array([_angles(outline) for outline in panels.outlines]))
+    measures = [_measures(outline) if plain else {} for plain, outline in zip(whole, panels.outlines, strict=True)]
     return {
         "mark": list(panels.marks),
         "quantity": panels.classes.quantity.tolist(),
-        **{f"side_{side}_mm": lengths[:, k].tolist() for k, side in enumerate("abcd")},
-        **{f"diagonal_{k + 1}_mm": diagonals[:, k].tolist() for k in range(2)},
-        "height_mm": [float(outline[2, 1]) for outline in panels.outlines],
-        **{f"angle_{k + 1}_deg": angles[:, k].tolist() for k in range(4)},
-        "outline": [""] * len(panels.marks),
+        **{name: [row.get(name) for row in measures] for name in _MEASURES},
+        "outline": ["" if plain else _points(o) for plain, o in zip(whole, panels.outlines, strict=True)],
         "area_m2": areas.tolist(),
         "charged_area_m2": _charged(size, settings).tolist(),
         "box_width_mm": size[:, 0].tolist(),
@@ -219,6 +215,29 @@ def _panels(kit: Kit, settings: PanelSettings) -> Columns:
         "handed": list(panels.handed),
         "files": [f"panels/{mark}.dxf" for mark in panels.marks],
     }
+
+
+_MEASURES = (
+    *(f"side_{letter}_mm" for letter in "abcd"),
+    *("diagonal_1_mm", "diagonal_2_mm", "height_mm"),
+    *(f"angle_{number}_deg" for number in range(1, 5)),
+)
+"""What is scheduled of whole panels; trimmed ones have their outline instead."""
+
+
+def _measures(outline: Floats) -> dict[str, float]:
+    """Give the measures of a quadrilateral by their columns."""
+    diagonals = np.linalg.norm(outline[[2, 3]] - outline[[0, 1]], axis=1)
+    values = [*sides(outline), *diagonals, outline[2, 1], *np.degrees(_angles(outline))]
+    return {name: float(value) for name, value in zip(_MEASURES, values, strict=True)}
+
+
+def _points(outline: Floats) -> str:
+    return ";".join(f"{format_number(x, 3)},{format_number(y, 3)}" for x, y in outline)
+
+
+def _packer(thickness: float) -> str:
+    return "" if np.isnan(thickness) else format_number(thickness, 3)
 
 
 def _angles(outline: Floats) -> Floats:
@@ -239,15 +258,16 @@ def _panel_instances(kit: Kit, placed: dict[str, Placed]) -> Columns:
     mesh, panels = kit.mesh, kit.panels
     nodes, members = np.array(kit.nodes.locations), np.array(kit.members.locations)
     places = [placed.get(where) for where in panels.locations]
+    corners = mesh.table(mesh.faces)
     return {
         "location": list(panels.locations),
         "mark": _marks(panels.marks, panels.classes.of),
         "i": mesh.face_ij[:, 0].tolist(),
         "j": mesh.face_ij[:, 1].tolist(),
         "first_corner": (panels.first_corner + 1).tolist(),
-        "nodes": _lists(nodes, mesh.quads),
-        "members": _lists(members, panels.edges),
-        "packers_mm": [";".join(format_number(side, 3) for side in row) for row in panels.packers],
+        "nodes": _lists(nodes, corners),
+        "members": _lists(members, mesh.table(panels.edges), kept=corners >= 0),
+        "packers_mm": [";".join(map(_packer, row)) for row in np.split(panels.packers, mesh.face_offsets[1:-1])],
         "slope_deg": np.degrees(panels.slope).tolist(),
         "flatness_mm": panels.flatness.tolist(),
         "sheet": [place.sheet if place else "" for place in places],

@@ -26,7 +26,8 @@ def axis_reach(kit: Kit, depth: float) -> Floats:
 
     A member's top meets the axis at `(h/2)/sin(edge, axis)` (geometry §4).
     """
-    return np.maximum.reduceat(depth / 2 / np.cos(kit.arms.elevation), kit.arms.offsets[:-1])
+    reach = np.where(kit.arms.sill, 0.0, depth / 2 / np.cos(kit.arms.elevation))
+    return np.maximum.reduceat(reach, kit.arms.offsets[:-1])
 
 
 def _line(start: Floats, end: Floats) -> Segment3D:

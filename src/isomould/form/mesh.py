@@ -1,4 +1,4 @@
-"""The mesh as general arrays: what is left of the product form once parts are made of it.
+"""The mesh as general arrays: what is left of the product form once parts are made of it, trimmed or not.
 
 Node (i, j) lies on parallel i and generatrix j. Generatrix edges run (i, j) → (i+1, j), parallel edges
 (i, j) → (i, j+1); faces are (i, j), (i, j+1), (i+1, j+1), (i+1, j): counter-clockwise from outside.
@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
-from isomould.arrays import Floats, Ints, read_only
+from isomould.arrays import Bools, Floats, Ints, T, read_only
 from isomould.form.surface import Surface, node_axes
 
 
@@ -18,6 +19,7 @@ class Family(IntEnum):
 
     GENERATRIX = 0
     PARALLEL = 1
+    SILL = 2
 
     @property
     def word(self) -> str:
@@ -28,9 +30,10 @@ class Family(IntEnum):
 class NodeKind(IntEnum):
     """The kind of a node: the first that applies."""
 
-    BOUNDARY = 0
-    FLAT = 1
-    INTERIOR = 2
+    SUPPORT = 0
+    BOUNDARY = 1
+    FLAT = 2
+    INTERIOR = 3
 
     @property
     def word(self) -> str:
@@ -56,8 +59,13 @@ class Mesh:
     faces : (k,) int, face_offsets : (f + 1,) int
         Corners of face f: `faces[face_offsets[f]:face_offsets[f + 1]]`.
     face_ij : (f, 2) int
+    rims : (k, 3) float
+        For the side after each corner the unit normal, towards what was kept, of the plane that cut it; zeros for
+        sides that no plane made.
+    node_piece, edge_piece, face_piece : (n,), (e,), (f,) int
+        0 for what is whole, else the piece of (i, j) that trimming left, counted from 1.
     shape : (int, int)
-        Numbers of parallels and generatrices.
+        Numbers of parallels and generatrices before trimming.
     closed : (bool, bool)
         Whether the profile and the rail are closed.
     """
@@ -72,6 +80,10 @@ class Mesh:
     faces: Ints
     face_offsets: Ints
     face_ij: Ints
+    rims: Floats
+    node_piece: Ints
+    edge_piece: Ints
+    face_piece: Ints
     shape: tuple[int, int]
     closed: tuple[bool, bool]
 
@@ -81,9 +93,31 @@ class Mesh:
                 read_only(value)
 
     @property
-    def quads(self) -> Ints:
-        """Corners (f, 4) of the faces."""
-        return self.faces.reshape(-1, 4)
+    def sizes(self) -> Ints:
+        """Number of corners (f,) of every face."""
+        return np.diff(self.face_offsets)
+
+    @property
+    def ahead(self) -> Ints:
+        """For every corner (k,) the place in `faces` of the next corner of the same face."""
+        following = np.arange(1, len(self.faces) + 1)
+        following[self.face_offsets[1:] - 1] = self.face_offsets[:-1]
+        return following
+
+    @property
+    def rimmed(self) -> Bools:
+        """Whether a plane cut the side after each corner (k,)."""
+        return np.abs(self.rims).max(axis=1) > 0
+
+    def per_corner(self, values: NDArray[T]) -> NDArray[T]:
+        """Repeat values (f, …) of the faces for their corners (k, …)."""
+        return np.repeat(values, self.sizes, axis=0)
+
+    def table(self, values: Ints) -> Ints:
+        """Lay values (k,) of the corners out in rows (f, v), −1 beyond the corners of a face."""
+        column = np.arange(self.sizes.max())
+        place = np.where(column < self.sizes[:, None], self.face_offsets[:-1, None] + column, -1)
+        return np.where(place >= 0, values[place], -1)
 
 
 def make_mesh(surface: Surface) -> Mesh:
@@ -108,6 +142,10 @@ def make_mesh(surface: Surface) -> Mesh:
         faces=np.moveaxis(quads, 0, -1).ravel(),
         face_offsets=np.arange(0, 4 * corner.size + 1, 4),
         face_ij=_ij(corner.ravel(), generatrices),
+        rims=np.zeros((4 * corner.size, 3)),
+        node_piece=np.zeros(number.size, dtype=np.int64),
+        edge_piece=np.zeros(first.size, dtype=np.int64),
+        face_piece=np.zeros(corner.size, dtype=np.int64),
         shape=(parallels, generatrices),
         closed=closed,
     )

@@ -78,12 +78,45 @@ class Treatment(Settings):
     flat_nodes: Flag = False
 
 
+class TrimPlane(Settings):
+    """A plane in the world: level at `z`, or through `origin` with a `normal` of any length."""
+
+    z: Length | None = None
+    origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    normal: tuple[Number, Number, Number] | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> "TrimPlane":
+        _refuse_two_ways(self, ("z", "normal"))
+        if self.z is None and (self.normal is None or not any(self.normal)):
+            message = "a plane is {z = …} or {origin = […], normal = […]} with a normal that is not zero"
+            raise ValueError(message)
+        return self
+
+
+class TrimSettings(Settings):
+    """A plane that trims the surface, and which side is kept: above, below, or the one in a direction."""
+
+    plane: TrimPlane
+    keep: Literal["above", "below"] | tuple[Number, Number, Number]
+
+
 class SurfaceSettings(Settings):
     """The `[surface]` table."""
 
     kind: Kind = "isogonal"
     min_pole_angle_deg: Annotated[PositiveNumber, Field(lt=90)] = 5.0
     pole: Literal["refuse", "open"] = "refuse"
+    trim: tuple[TrimSettings, ...] = ()
+    sill: Flag = False
+    """Members along the edges that the planes cut."""
+
+    @model_validator(mode="after")
+    def _sill_needs_plane(self) -> "SurfaceSettings":
+        if self.sill and not self.trim:
+            message = "sill = true needs planes to trim by: trim = [{plane = {z = 0}, keep = 'above'}]"
+            raise ValueError(message)
+        return self
 
 
 class FormLimits(Settings):

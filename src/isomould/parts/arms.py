@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints, read_only
-from isomould.form.mesh import Mesh
+from isomould.arrays import Bools, Floats, Ints, read_only
+from isomould.form.mesh import Family, Mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,8 @@ class Arms:
         Azimuth from an arbitrary zero of the node: only differences mean anything.
     gap : (a,) float, rad
         Azimuth to the next arm of the same node; the gaps of a node sum to 2π.
+    sill : (a,) bool
+        Whether it is the arm of a sill, which stands beside the node and not in it.
     offsets : (n + 1,) int
     """
 
@@ -36,6 +38,7 @@ class Arms:
     azimuth: Floats
     elevation: Floats
     gap: Floats
+    sill: Bools
     offsets: Ints
 
     def __post_init__(self) -> None:
@@ -60,6 +63,7 @@ def find_arms(mesh: Mesh) -> Arms:
         azimuth=azimuth[order],
         elevation=elevation[order],
         gap=_gaps(azimuth[order], offsets),
+        sill=np.tile(mesh.family == Family.SILL, 2)[order],
         offsets=offsets,
     )
 
@@ -85,4 +89,6 @@ def _angles(axes: Floats, direction: Floats) -> tuple[Floats, Floats]:
 def _gaps(azimuth: Floats, offsets: Ints) -> Floats:
     following = np.arange(1, len(azimuth) + 1)
     following[offsets[1:] - 1] = offsets[:-1]
-    return np.mod(azimuth[following] - azimuth, 2 * np.pi)
+    gaps = np.mod(azimuth[following] - azimuth, 2 * np.pi)
+    gaps[offsets[:-1][np.diff(offsets) == 1]] = 2 * np.pi
+    return gaps

@@ -59,7 +59,7 @@ def size_drum(arms: tuple[NodeArms, ...], section: PlateSection, settings: NodeS
     depth = settings.slot_depth or settings.end_gap + engagement
     if depth - settings.end_gap < engagement - 1e-9:
         _refuse_depth(depth, settings.end_gap + engagement)
-    gaps = np.concatenate([each.gap for each in arms])
+    gaps = np.minimum(np.concatenate([each.slot_gap for each in arms]), np.pi)
     width = section.thickness + settings.clearance
     nose = width / 2 if settings.slot_end == "round" else 0.0
     floor = max(_floor_for_web(gaps, width, nose, settings.min_web), settings.bore / 2 + settings.min_core + nose)
@@ -69,7 +69,7 @@ def size_drum(arms: tuple[NodeArms, ...], section: PlateSection, settings: NodeS
     return Drum(
         diameter=diameter,
         bore=settings.bore,
-        height=np.array([_height(each, section, shoulder) for each in arms]),
+        height=np.array([_height(each.slotted, section, shoulder) for each in arms]),
         slot_width=width,
         slot_floor=radius - depth,
         plate_end=radius - depth + settings.end_gap,

@@ -14,6 +14,7 @@ from isomould.parts.marks import locations, marks
 from isomould.parts.nodes import NodeParts
 from isomould.parts.outline import area, round_outline, sides
 from isomould.parts.settings import CongruenceSettings, MemberSettings
+from isomould.parts.sills import set_backs
 
 TURNED = ("none", "end_for_end", "upside_down", "both")
 """How an instance lies compared with its class, by variant."""
@@ -96,13 +97,21 @@ def make_members(
     length = np.linalg.norm(mesh.nodes[mesh.edges[:, 1]] - mesh.nodes[mesh.edges[:, 0]], axis=1)
     elevation = end_elevations(arms, len(length))
     height = drum.height[nodes.classes.of[mesh.edges]]
-    numbers, labels = _variants(length, elevation, height, mesh.family)
-    spread = np.array([tolerance.length, *[np.radians(tolerance.angle_deg)] * 2])
+    sill = mesh.family == Family.SILL
+    clear = set_backs(mesh, arms, height, drum, settings.section)
+    elevation[sill], height[sill] = 0.0, 0.0
+    numbers, labels = _variants(length, elevation, clear, height, mesh.family)
+    spread = np.array([tolerance.length, *[np.radians(tolerance.angle_deg)] * 2, *[tolerance.length] * 2])
     classes = classify(numbers, labels, spread)
     where = member_locations(mesh)
     chosen = classes.representative
-    shapes = tuple(_cut(length[k], elevation[k], height[k], drum, settings, where[k]) for k in chosen)
-    lever = np.array([1.0, settings.section.depth / 2, settings.section.depth / 2])
+    shapes = tuple(
+        _cut_sill(length[k], clear[k], settings, where[k])
+        if sill[k]
+        else _cut(length[k], elevation[k], height[k], drum, settings, where[k])
+        for k in chosen
+    )
+    lever = np.array([1.0, settings.section.depth / 2, settings.section.depth / 2, 1.0, 1.0])
     return MemberParts(
         classes=classes,
         marks=marks("M", len(chosen)),
@@ -121,18 +130,20 @@ def end_elevations(arms: Arms, count: int) -> Floats:
 
 
 def member_locations(mesh: Mesh) -> tuple[str, ...]:
-    """Give the locations of all mesh edges: `MG-ii-jj` and `MP-ii-jj`."""
-    split = int(np.count_nonzero(mesh.family == Family.GENERATRIX))
-    padded = np.concatenate([mesh.edge_ij, mesh.edge_ij.max(axis=0, keepdims=True)])
-    generatrices = locations("MG", np.concatenate([padded[:split], padded[-1:]]))
-    parallels = locations("MP", padded[split:])
-    return generatrices[:-1] + parallels[:-1]
+    """Give the locations of all mesh edges: `MG-ii-jj` and `MP-ii-jj`, and `MS-kkk` of the sills, which come last."""
+    split, sills = np.searchsorted(mesh.family, [Family.PARALLEL, Family.SILL])
+    ij, piece = (np.concatenate([values[:sills], values[:1]]) for values in (mesh.edge_ij, mesh.edge_piece))
+    ij[-1] = mesh.edge_ij[:sills].max(axis=0)
+    generatrices = locations("MG", ij[[*range(split), -1]], piece[[*range(split), -1]])
+    parallels = locations("MP", ij[split:], piece[split:])
+    return generatrices[:-1] + parallels[:-1] + tuple(f"MS-{k:03d}" for k in range(len(mesh.edges) - sills))
 
 
-def _variants(length: Floats, elevation: Floats, height: Floats, family: Ints) -> tuple[Floats, Ints]:
+def _variants(length: Floats, elevation: Floats, clear: Floats, height: Floats, family: Ints) -> tuple[Floats, Ints]:
     """Descriptions of a plate as it stands, end for end, upside down, and both (geometry §7)."""
-    start, end = elevation.T
-    rows = [(start, end), (end, start), (-start, -end), (-end, -start)]
+    (start, end), (here, there) = elevation.T, clear.T
+    rows = [(start, end, here, there), (end, start, there, here), (-start, -end, here, there)]
+    rows += [(-end, -start, there, here)]
     numbers = np.stack([np.stack([length, *row], axis=-1) for row in rows], axis=1)
     first, last = np.round(height * 1000).astype(np.int64).T
     tags = [(family, first, last), (family, last, first)] * 2
@@ -157,6 +168,20 @@ def _cut(
         bottom_length=float(bottom[0]),
         end_angle=(-float(elevation[0]), -float(elevation[1])),
         set_back=(float(drum.plate_end / np.cos(elevation[0])), float(drum.plate_end / np.cos(elevation[1]))),
+    )
+
+
+def _cut_sill(length: float, clear: Floats, settings: MemberSettings, where: str) -> MemberShape:
+    """Cut one sill square, clear of its nodes."""
+    half, (start, end) = settings.section.depth / 2, (float(clear[0]), float(round_um(length - clear[1])))
+    _refuse_short(end - start, length, settings, where)
+    return MemberShape(
+        outline=round_outline(np.array([[start, half], [start, -half], [end, -half], [end, half]])),
+        system_length=float(length),
+        top_length=end - start,
+        bottom_length=end - start,
+        end_angle=(0.0, 0.0),
+        set_back=(float(clear[0]), float(clear[1])),
     )
 
 

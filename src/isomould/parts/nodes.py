@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Floats, Ints, read_only
-from isomould.form.mesh import Mesh
+from isomould.form.mesh import Family, Mesh
 from isomould.parts.arms import Arms, normalised
 from isomould.parts.congruence import Classes, agrees_with_mirror, classify, smallest
 from isomould.parts.marks import locations, marks
@@ -38,6 +38,18 @@ class NodeArms:
     def gap(self) -> Floats:
         """Azimuth (v,) rad to the next arm; they sum to 2π."""
         return np.diff(self.azimuth, append=2 * np.pi)
+
+    @property
+    def slotted(self) -> "NodeArms":
+        """The arms that the node holds: all but sills, their azimuths still from arm 1."""
+        held = self.family != Family.SILL
+        return NodeArms(self.azimuth[held], self.elevation[held], self.family[held])
+
+    @property
+    def slot_gap(self) -> Floats:
+        """Azimuth (s,) rad from slot to slot."""
+        azimuth = self.slotted.azimuth
+        return np.diff(azimuth, append=azimuth[0] + 2 * np.pi)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +104,7 @@ def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings) -> Nod
     return NodeParts(
         classes=classes,
         marks=marks("N", len(chosen)),
-        locations=locations("N", mesh.node_ij),
+        locations=locations("N", mesh.node_ij, mesh.node_piece),
         arms=tuple(_class_arms(mesh, arms, row) for row in ordered[chosen]),
         handed=_handedness(mesh, arms, rows[chosen], spread),
         kind=mesh.kind[chosen],

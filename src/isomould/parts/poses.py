@@ -8,6 +8,7 @@ from isomould.parts.arms import normalised
 from isomould.parts.members import MemberParts
 from isomould.parts.nodes import NodeParts
 from isomould.parts.panels import PanelParts
+from isomould.parts.sills import edge_tops
 
 
 def node_poses(mesh: Mesh, nodes: NodeParts) -> Floats:
@@ -16,28 +17,28 @@ def node_poses(mesh: Mesh, nodes: NodeParts) -> Floats:
 
 
 def member_poses(mesh: Mesh, members: MemberParts) -> Floats:
-    """Transforms (e, 4, 4) of the members: x along the system line, y to the outside, turned as their class asks."""
+    """Transforms (e, 4, 4) of the members: x along the system line, y to the outside, turned as their class asks.
+
+    The y of a sill is the direction in which it stands.
+    """
     start, end = mesh.nodes[mesh.edges[:, 0]], mesh.nodes[mesh.edges[:, 1]]
     along = normalised(end - start)
-    axes = mesh.axes[mesh.edges].sum(axis=1)
-    top = normalised(axes - np.einsum("ij,ij->i", axes, along)[:, None] * along)
+    top = edge_tops(mesh)
     end_for_end = np.isin(members.classes.variant, (1, 3))[:, None]
     upside_down = np.isin(members.classes.variant, (2, 3))[:, None]
     x, y = np.where(end_for_end, -along, along), np.where(upside_down, -top, top)
     return _poses(x, y, np.cross(x, y), np.where(end_for_end, end, start))
 
 
-def panel_poses(panels: PanelParts) -> Floats:
+def panel_poses(mesh: Mesh, panels: PanelParts) -> Floats:
     """Transforms (f, 4, 4) of the panels: x along side 0 of the part, z through its thickness to the outside.
 
     A panel that was turned over has its z to the inside.
     """
-    rows, shift = np.arange(len(panels.corners)), panels.classes.variant % 4
-    over = panels.turned_over
-    first = np.where(over, 3 - shift, shift)
-    second = np.where(over, first - 1, first + 1) % 4
-    origin = panels.corners[rows, first]
-    x = normalised(panels.corners[rows, second] - origin)
+    starts, over, first = mesh.face_offsets[:-1], panels.turned_over, panels.lowest_corner
+    second = np.where(over, first - 1, first + 1) % mesh.sizes
+    origin = panels.corners[starts + first]
+    x = normalised(panels.corners[starts + second] - origin)
     z = np.where(over[:, None], -panels.normals, panels.normals)
     return _poses(x, np.cross(z, x), z, origin)
 

@@ -11,22 +11,23 @@ _MAX_TORSION_DEG = 0.01
 
 
 def beam_mismatch(arms: Arms, depth: float) -> Floats:
-    """Give the mismatch (n,) mm of every node: the spread of `(h/2)/sin(edge, axis)` over its arms."""
+    """Give the mismatch (n,) mm of every node: the spread of `(h/2)/sin(edge, axis)` over its arms, sills apart."""
     reach = depth / 2 / np.cos(arms.elevation)
     starts = arms.offsets[:-1]
-    return np.maximum.reduceat(reach, starts) - np.minimum.reduceat(reach, starts)
+    high, low = (np.where(arms.sill, none, reach) for none in (-np.inf, np.inf))
+    return np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts)
 
 
 def node_torsion(mesh: Mesh, arms: Arms) -> Floats:
     """Give the torsion (n,) rad of every node: how far its axis leaves the beam planes of its arms.
 
-    The beam plane of a member contains its system line and the axis of its far end.
+    The beam plane of a member contains its system line and the axis of its far end; sills are exempt.
     """
     near = mesh.axes[arms.node]
     far = mesh.axes[mesh.edges[arms.edge, 1 - arms.end]]
     plane = normalised(np.cross(arms.direction, far))
     twist = np.abs(np.arcsin(np.clip(np.einsum("ij,ij->i", plane, near), -1.0, 1.0)))
-    return np.maximum.reduceat(twist, arms.offsets[:-1])
+    return np.maximum.reduceat(np.where(arms.sill, 0.0, twist), arms.offsets[:-1])
 
 
 def refuse_torsion(torsion: Floats, where: tuple[str, ...]) -> None:

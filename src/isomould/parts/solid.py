@@ -123,7 +123,7 @@ def facets(radius: float) -> int:
 def _cutters(arms: NodeArms, drum: Drum, height: float, slot_end: str) -> m3.Manifold:
     """Slots and bore, longer than the drum at every free end."""
     tall = height + 2 * _OVERLAP
-    slots = [_slot(drum, tall, slot_end).rotate((0.0, 0.0, float(np.degrees(a)))) for a in arms.azimuth]
+    slots = [_slot(drum, tall, slot_end).rotate((0.0, 0.0, float(np.degrees(a)))) for a in arms.slotted.azimuth]
     bore = [_cylinder(drum.bore / 2, tall)] if drum.bore > 0 else []
     return m3.Manifold.batch_boolean([*slots, *bore], m3.OpType.Add)
 
@@ -143,7 +143,7 @@ def _section_area(arms: NodeArms, drum: Drum, slot_end: str) -> float:
     slot = shapely.box(drum.slot_floor, -drum.slot_width / 2, drum.radius + _OVERLAP, drum.slot_width / 2)
     if slot_end == "round":
         slot = slot.union(_disc(drum.slot_width / 2, drum.slot_floor))
-    slots = [shapely.affinity.rotate(slot, float(a), origin=(0, 0), use_radians=True) for a in arms.azimuth]
+    slots = [shapely.affinity.rotate(slot, float(a), origin=(0, 0), use_radians=True) for a in arms.slotted.azimuth]
     bore = [_disc(drum.bore / 2)] if drum.bore > 0 else []
     return float(_disc(drum.radius).difference(shapely.union_all([*slots, *bore])).area)
 

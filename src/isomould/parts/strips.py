@@ -6,7 +6,8 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Floats, Ints, read_only
-from isomould.form.mesh import Mesh
+from isomould.errors import Refused
+from isomould.form.mesh import Mesh, NodeKind
 
 Along = Literal["generatrix", "parallel"]
 """The lines that a strip lies between."""
@@ -65,7 +66,7 @@ def _unroll(mesh: Mesh, along: Along, number: int, name: str) -> Strip:
     rows = _in_order(mesh, along, number)
     # Corners of a quad, walking up a strip: near left, near right, far right, far left.
     order = [0, 1, 2, 3] if along == "generatrix" else [3, 0, 1, 2]
-    corners = mesh.nodes[mesh.quads[rows][:, order]]
+    corners = mesh.nodes[_whole(mesh, rows, along)[:, order]]
     width = float(np.linalg.norm(corners[0, 1] - corners[0, 0]))
     left, right = [np.array([0.0, width])], [np.array([0.0, 0.0])]
     for quad in corners:
@@ -74,6 +75,21 @@ def _unroll(mesh: Mesh, along: Along, number: int, name: str) -> Strip:
         right.append(far_right)
     sides = np.array(left), np.array(right)
     return Strip(name, along, number, *sides, _sagitta((sides[0] + sides[1]) / 2))
+
+
+def _whole(mesh: Mesh, rows: Ints, along: Along) -> Ints:
+    """Corners (k, 4) of a strip's panels, each of which must share a fold with the next."""
+    corners = mesh.table(mesh.faces)[rows][:, :4]
+    steps = np.diff(mesh.face_ij[rows, 0 if along == "generatrix" else 1])
+    if np.any(mesh.kind[corners] == NodeKind.SUPPORT) or np.any(corners < 0) or np.any(steps != 1):
+        raise Refused(
+            "E-STRIP",
+            "deliver.strips",
+            f"a strip along {'generatrices' if along == 'generatrix' else 'parallels'} with trimmed panels or a gap",
+            "strips of whole panels",
+            "Leave deliver.strips out for trimmed surfaces and those that pass poles.",
+        )
+    return corners
 
 
 def _in_order(mesh: Mesh, along: Along, number: int) -> Ints:

@@ -17,6 +17,7 @@ from isomould.verify.checks import (
     solids,
     topology,
     totals,
+    trimming,
     workbook,
 )
 from isomould.verify.delivery import Delivery
@@ -28,6 +29,7 @@ _GROUPS = (
     nodes,
     polygons,
     topology,
+    trimming,
     solids,
     nesting,
     bars,

@@ -1,14 +1,13 @@
 """V36: every instance, measured anew from the mesh, is the part that its mark says (geometry §7)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.grid import grid_of, whole_faces
-from isomould.verify.read.mesh import Mesh, edge_vectors
+from isomould.verify.read.mesh import Mesh, edge_vectors, faces_by_size
 from isomould.verify.read.tables import Table, half_unit, number, numbers, pairs, texts
-from isomould.verify.rules import Floats, Ints, Measured, Rule, worst_of
+from isomould.verify.rules import Floats, Ints, Measured, Rule, worse, worst_of
 
 NOISE = 1e-9
 
@@ -95,23 +94,17 @@ def member_lengths(delivery: Delivery) -> Measured:
 
 
 def member_ends(delivery: Delivery) -> Measured:
-    """End cuts of every member (0 on a square end, else −elevation) as its class lies turned, in degrees."""
+    """End cuts of every member as its class lies turned, in degrees: −elevation, and 0 on sills, which are square."""
     mesh, count = delivery.mesh, len(delivery.mesh.edges)
     elevation = np.degrees(arms_of(mesh, mesh.node_axes).elevation.reshape(2, count).T)
     turned = pairs(delivery.table("member_instances"), "location", "turned")
     ends = _end_angles(delivery)
     where = zip(mesh.edge_mark, mesh.edge_location, strict=True)
     claimed = np.array([_as_turned(ends[str(mark)], turned[str(location)]) for mark, location in where])
-    off = np.where(_free_ends(delivery), 0.0, abs(claimed + elevation))
+    expected = np.where((mesh.edge_family == "sill")[:, None], 0.0, -elevation)
+    off = abs(claimed - expected) if delivery.design.raw["node"]["detail"] == "slotted" else np.zeros_like(claimed)
     limit = float(delivery.design.raw["tolerances"]["angle_deg"]) + half_unit("angle_deg") + NOISE
     return worst_of(off.max(axis=1), mesh.edge_location, limit=limit)
-
-
-def _free_ends(delivery: Delivery) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
-    """Give the ends whose cut does not follow the node's axis: on supports and on facets (cut square)."""
-    mesh = delivery.mesh
-    support = np.array([delivery.node_kinds[str(mark)] == "support" for mark in mesh.node_mark])
-    return support[mesh.edges] | (delivery.design.raw["node"]["detail"] != "slotted")
 
 
 def _end_angles(delivery: Delivery) -> dict[str, tuple[float, float]]:
@@ -135,30 +128,34 @@ def panels(delivery: Delivery) -> Measured:
 
     Outlines are insets of the faces by different amounts, which is why twice the tolerance is allowed here.
     """
-    mesh = delivery.mesh
-    faces, corners = whole_faces(mesh, grid_of(mesh, delivery.design))
-    marks, first, of = np.unique(mesh.face_mark[faces], return_index=True, return_inverse=True)
-    ways = _face_sizes(delivery, faces, mesh.nodes[corners])
+    found = [_spread(delivery, faces, corners) for faces, corners in faces_by_size(delivery.mesh)]
+    limit = 2 * (float(delivery.design.raw["tolerances"]["length_mm"]) + 2 * half_unit("side_mm")) + NOISE
+    return replace(worse(*found), limit=limit)
+
+
+def _spread(delivery: Delivery, faces: Ints, corners: Ints) -> Measured:
+    """Compare faces (f,) with as many corners (f, k): the largest spread within a mark."""
+    marks, first, of = np.unique(delivery.mesh.face_mark[faces], return_index=True, return_inverse=True)
+    ways = _face_sizes(delivery, faces, delivery.mesh.nodes[corners])
     off = abs(ways - ways[0][first][of]).max(axis=2)
     measured = ways[off.argmin(axis=0), np.arange(len(faces))]
-    spread = [float(np.ptp(measured[of == k], axis=0).max()) for k in range(len(marks))]
-    limit = 2 * (float(delivery.design.raw["tolerances"]["length_mm"]) + 2 * half_unit("side_mm")) + NOISE
-    return worst_of(spread, marks, limit=limit)
+    return worst_of([float(np.ptp(measured[of == k], axis=0).max()) for k in range(len(marks))], marks)
 
 
 def _face_sizes(delivery: Delivery, faces: Ints, points: Floats) -> Floats:
-    """Give sides and diagonals (ways, f, 6) of faces from the part's first corner; both ways if flippable."""
+    """Give sides and diagonals (ways, f, q) of faces from the part's first corner; both ways if flippable."""
     first = pairs(delivery.table("panel_instances"), "location", "first_corner")
     start = np.array([int(first[str(name)]) - 1 for name in delivery.mesh.face_location[faces]])
-    step = np.arange(4) - start[:, None]
+    count = points.shape[1]
+    step = np.arange(count) - start[:, None]
     flippable = bool(delivery.design.raw["panel"].get("flippable", False))
-    orders = [step % 4, (start[:, None] - np.arange(4)) % 4] if flippable else [step % 4]
+    orders = [step % count, (start[:, None] - np.arange(count)) % count] if flippable else [step % count]
     return np.stack([_sizes(np.take_along_axis(points, order[..., None], axis=1)) for order in orders])
 
 
 def _sizes(around: Floats) -> Floats:
     sides = np.linalg.norm(np.roll(around, -1, axis=1) - around, axis=2)
-    return np.hstack((sides, np.linalg.norm(around[:, 2:] - around[:, :2], axis=2)))
+    return np.hstack((sides, np.linalg.norm(around[:, 2:] - around[:, :-2], axis=2)))
 
 
 RULES = (
