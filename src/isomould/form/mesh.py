@@ -88,8 +88,13 @@ class Mesh:
 
 def make_mesh(surface: Surface) -> Mesh:
     """Flatten the product form into arrays of nodes, edges and faces."""
-    parallels, generatrices = surface.V.shape[:2]
     closed = (surface.profile.closed, surface.rail.closed)
+    return grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed)
+
+
+def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool]) -> Mesh:
+    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n)."""
+    parallels, generatrices = nodes.shape[:2]
     number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
     up, along = number[: parallels - (not closed[0])], number[:, : generatrices - (not closed[1])]
     rows, strips = up.shape[0], along.shape[1]
@@ -101,10 +106,10 @@ def make_mesh(surface: Surface) -> Mesh:
     edges = [np.stack([up, above[:rows]]), np.stack([along, beside[:, :strips]])]
     first = np.concatenate([up.ravel(), along.ravel()])
     return Mesh(
-        nodes=surface.V.reshape(-1, 3),
-        axes=node_axes(surface).reshape(-1, 3),
+        nodes=nodes.reshape(-1, 3),
+        axes=axes.reshape(-1, 3),
         node_ij=_ij(number.ravel(), generatrices),
-        kind=_kinds(surface).ravel(),
+        kind=kinds.ravel(),
         edges=np.concatenate([edge.reshape(2, -1).T for edge in edges]),
         family=np.repeat([Family.GENERATRIX, Family.PARALLEL], [up.size, along.size]),
         edge_ij=_ij(first, generatrices),
