@@ -12,6 +12,7 @@ from isomould.form.division import Request
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
+from isomould.measure.offsets import DoubleLayer, make_double_layer
 from isomould.parts.kit import Kit, KitSettings, make_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
@@ -28,6 +29,7 @@ class Design:
     form: Form
     kit: Kit
     notes: tuple[Note, ...]
+    layers: DoubleLayer | None = None
 
 
 def make_design(project: Project, folder: Path) -> Design:
@@ -45,13 +47,19 @@ def make_design(project: Project, folder: Path) -> Design:
         generatrix,
         plane,
         project.rail.ends,
-        (_request("rail", project), _request("generatrix", project)),
+        (division_request("rail", project), division_request("generatrix", project)),
         project.surface,
         project.members.section.depth,
     )
     kit = make_kit(make_mesh(form.surface), kit_settings(project))
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *kit.notes)
-    return Design(project, plane, rail, generatrix, form, kit, notes)
+    layers = _double_layer(form, project)
+    notes = (*rail_notes, *generatrix_notes, *form.notes, *kit.notes, *(layers.notes if layers else ()))
+    return Design(project, plane, rail, generatrix, form, kit, notes, layers)
+
+
+def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
+    asked = project.deliver.double_layer
+    return None if asked is None else make_double_layer(form, asked.offset, asked.distance)
 
 
 def kit_settings(project: Project) -> KitSettings:
@@ -71,7 +79,8 @@ def _generatrix(table: GeneratrixTable, folder: Path) -> tuple[PlanarCurve, tupl
     return place_generatrix(curve, table.origin, table.axes, table.outside), notes
 
 
-def _request(field: str, project: Project) -> Request:
+def division_request(field: str, project: Project) -> Request:
+    """Give what dividing the rail or the generatrix (`field`) needs, as the project says it."""
     table = project.rail if field == "rail" else project.generatrix
     limits = FormLimits(
         min_member=project.tolerances.min_member,

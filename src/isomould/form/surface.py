@@ -93,7 +93,7 @@ def _refuse_parallels(rail: Rail, offsets: Floats, limit: float) -> None:
 
 
 def _refuse_generatrices(profile: Profile, side: float) -> None:
-    lengths = profile.lengths + side * _stretch(profile)
+    lengths = profile.lengths + side * stretch(profile)
     if lengths.min() > 0:
         return
     row = int(np.argmin(lengths))
@@ -107,7 +107,7 @@ def _refuse_generatrices(profile: Profile, side: float) -> None:
     )
 
 
-def _stretch(profile: Profile) -> Floats:
+def stretch(profile: Profile) -> Floats:
     """Growth (e,) of a profile edge's length per mm of offset: the signed length of its edge in O."""
     field = np.stack([profile.a, profile.b], axis=-1)
     ahead = np.roll(field, -1, axis=0) if profile.closed else field[1:]
