@@ -1,6 +1,6 @@
 """isomould: from two curves to everything a shop needs to build a free-form gridshell."""
 
-from isomould.api import Checked, build, check, frames, nest, new, verify
+from isomould.api import Checked, build, check, compare, draw, frames, nest, new, verify
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
 from isomould.pipeline import Run
 
@@ -14,6 +14,8 @@ __all__ = [
     "Run",
     "build",
     "check",
+    "compare",
+    "draw",
     "frames",
     "nest",
     "new",

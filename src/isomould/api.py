@@ -3,12 +3,19 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 import pandas as pd
 
+from isomould.comparison import Compared, compare_families, families_table
 from isomould.design import Design, make_design
+from isomould.documents.graph import curvature_picture
 from isomould.documents.overview import Fact, kit_facts
+from isomould.documents.picture import Picture
+from isomould.documents.views import SpaceView, developed_picture, space_picture
 from isomould.errors import Note, Refused
+from isomould.form.assemble import RailInSpace
+from isomould.form.spatial import SpatialPolygon
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
@@ -20,8 +27,12 @@ from isomould.project.load import load_project
 from isomould.templates import copy_template
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import workers
+from isomould.writers.csv import csv_text
 from isomould.writers.disk import replace_file
 from isomould.writers.names import safe_name
+from isomould.writers.svg import svg_text
+
+View = SpaceView | Literal["developed", "curvature"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +125,59 @@ def nest(instance: str | Path, out: str | Path, effort: Effort = "normal", stop:
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
     replace_file(Path(out), layout_to_json(layout).encode())
     return layout
+
+
+def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | None = None) -> tuple[Compared, ...]:
+    """Build a design as every mesh family and measure them alike (paper Tables 1 and 5).
+
+    Parameters
+    ----------
+    project
+        A project file.
+    changes
+        Overrides such as `'rail.curve.rise="8 m"'`.
+    out
+        A CSV file to write; it is written whole or not at all.
+    """
+    compared = compare_families(check(project, changes).design)
+    if out is not None:
+        replace_file(Path(out), csv_text(families_table(compared)).encode())
+    return compared
+
+
+def draw(project: str | Path, out: str | Path, view: View = "axonometry", changes: Sequence[str] = ()) -> Picture:
+    """Draw a design as SVG.
+
+    Parameters
+    ----------
+    project
+        A project file.
+    out
+        The picture file, `.svg`; it is written whole or not at all.
+    view
+        "axonometry", "plan", "elevation" (along +y), "developed" (strips between generatrices) or "curvature" (of
+        the rail, with its points of tangency).
+    changes
+        Overrides such as `'rail.curve.rise="8 m"'`.
+    """
+    if Path(out).suffix.lower() != ".svg":
+        raise Refused("E-DRAW-FILE", "--out", str(out), "a file that ends in .svg", "Write --out picture.svg.")
+    picture = _picture(check(project, changes).design, view)
+    replace_file(Path(out), svg_text(picture).encode())
+    return picture
+
+
+def _picture(design: Design, view: View) -> Picture:
+    name = design.project.project.name
+    if view == "curvature":
+        return _curvature(design, name)
+    return developed_picture(design.kit, name) if view == "developed" else space_picture(design.kit, name, view)
+
+
+def _curvature(design: Design, name: str) -> Picture:
+    if isinstance(design.rail, RailInSpace) or isinstance(design.form.rail, SpatialPolygon):
+        raise Refused("E-DRAW-VIEW", "--view", "curvature of a rail in space", "a planar rail", "Choose another view.")
+    return curvature_picture(design.rail.curve, design.form.rail, name)
 
 
 def frames(built: Built) -> dict[str, pd.DataFrame]:

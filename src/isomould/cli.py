@@ -16,6 +16,9 @@ from rich.console import Console
 from rich.table import Table
 
 import isomould
+from isomould.api import View
+from isomould.comparison import families_table
+from isomould.documents import table as tables
 from isomould.documents.numbers import format_number
 from isomould.errors import IsomouldError
 from isomould.nesting.search import Effort
@@ -24,6 +27,7 @@ from isomould.templates import describe_template, template_names
 from isomould.verify import Certificate
 
 _EFFORT = click.Choice(["quick", "normal", "best"])
+_VIEW = click.Choice(["axonometry", "plan", "elevation", "developed", "curvature"])
 _INTERRUPTED = 130
 
 
@@ -116,6 +120,43 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
     )
     if stop.interrupted:
         sys.exit(_INTERRUPTED)
+
+
+@cli.command()
+@click.argument("project", type=click.Path(path_type=Path))
+@click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
+@click.option("--out", type=click.Path(path_type=Path), help="CSV file to write.")
+def compare(project: Path, changes: Sequence[str], out: Path | None) -> None:
+    """Compare mesh families on the project's surface: the same rail, generatrix and counts."""
+    compared = isomould.compare(project, changes, out)
+    _console().print(_families(families_table(compared)))
+    for family in compared:
+        if family.reason:
+            click.echo(f"no {family.family} mesh: {family.reason}", err=True)
+
+
+@cli.command()
+@click.argument("project", type=click.Path(path_type=Path))
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="Picture (SVG) to write.")
+@click.option("--view", type=_VIEW, default="axonometry", show_default=True)
+@click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
+def draw(project: Path, out: Path, view: View, changes: Sequence[str]) -> None:
+    """Draw the design; no other files are written."""
+    isomould.draw(project, out, view, changes)
+    click.echo(f"wrote {out}")
+
+
+def _families(families: tables.Table) -> Table:
+    """One column per family, one row per measure."""
+    columns = [(column.header, tables.cells(families, column)) for column in families.columns]
+    table = Table("", *(str(name) for name in columns[0][1]), box=None)
+    for header, cells in columns[1:-1]:
+        table.add_row(header, *("–" if cell is None else _short(cell) for cell in cells))
+    return table
+
+
+def _short(cell: tables.Cell) -> str:
+    return format_number(cell) if isinstance(cell, int | float) else str(cell)
 
 
 def _certificate_table(certificate: Certificate) -> Table:

@@ -20,8 +20,10 @@ from isomould.documents.strips import strip_drawing, strip_table
 from isomould.documents.table import Table
 from isomould.documents.totals import make_summary
 from isomould.form.mesh import Family
+from isomould.measure.offsets import DoubleLayer
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
+from isomould.parts.marks import locations
 from isomould.parts.members import MemberParts
 from isomould.parts.nodes import NodeParts
 from isomould.parts.panels import PanelParts
@@ -85,6 +87,21 @@ def _write_model(folder: Path, delivery: Delivery) -> None:
     groups = [f"{mark}_{where}" for mark, where in zip(_marks(kit.panels), kit.panels.locations, strict=True)]
     write_obj(folder / "mesh.obj", kit.mesh.nodes, kit.mesh.faces, kit.mesh.face_offsets, groups)
     write_glb(folder / "model.glb", _shapes(delivery), _instances(delivery))
+    if delivery.design.layers is not None:
+        _write_layers(folder / "double-layer.obj", delivery.design.layers)
+
+
+def _write_layers(path: Path, layers: DoubleLayer) -> None:
+    """Write both layers, the first one's nodes first, and the members that connect them."""
+    first, second = layers.first, layers.second
+    count = len(first.nodes)
+    nodes = np.concatenate([first.nodes, second.nodes])
+    faces = np.concatenate([first.faces, second.faces + count])
+    offsets = np.concatenate([first.face_offsets, second.face_offsets[1:] + len(first.faces)])
+    groups = [f"{layer}_{where}" for layer in ("L1", "L2") for where in locations("P", first.face_ij)]
+    ends = np.arange(count)[:, None] + np.array([0, count])
+    lines = {f"L12_{where}": pair for where, pair in zip(locations("N", first.node_ij), ends, strict=True)}
+    write_obj(path, nodes, faces, offsets, groups, lines)
 
 
 def _marks(parts: NodeParts | MemberParts | PanelParts) -> list[str]:

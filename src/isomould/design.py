@@ -9,13 +9,14 @@ from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import build_plane
 from isomould.curves.settings import build_curve
 from isomould.curves.spatial_settings import build_spatial_curve
-from isomould.errors import Note
+from isomould.errors import Note, Refused
 from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
 from isomould.form.trim import trim_mesh
+from isomould.measure.offsets import DoubleLayer, make_double_layer
 from isomould.parts.kit import Kit, KitSettings, make_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
@@ -31,6 +32,7 @@ class Design:
     form: Form
     kit: Kit
     notes: tuple[Note, ...]
+    layers: DoubleLayer | None = None
 
 
 def make_design(project: Project, folder: Path) -> Design:
@@ -46,14 +48,30 @@ def make_design(project: Project, folder: Path) -> Design:
     form = make_form(
         rail,
         generatrix,
-        (_request("rail", project), _request("generatrix", project)),
+        (division_request("rail", project), division_request("generatrix", project)),
         project.surface,
         project.members.section.depth,
     )
     mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
     kit = make_kit(mesh, kit_settings(project))
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *kit.notes)
-    return Design(project, rail, generatrix, form, kit, notes)
+    layers = _double_layer(form, project)
+    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *kit.notes, *(layers.notes if layers else ()))
+    return Design(project, rail, generatrix, form, kit, notes, layers)
+
+
+def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
+    asked = project.deliver.double_layer
+    if asked is None:
+        return None
+    if project.surface.trim or form.surface.profile.gap.any():
+        raise Refused(
+            "E-LAYER-WHOLE",
+            "deliver.double_layer",
+            "a trimmed surface or one with a gap at a pole",
+            "a whole surface",
+            "Leave double_layer out, or surface.trim.",
+        )
+    return make_double_layer(form, asked.offset, asked.distance)
 
 
 def kit_settings(project: Project) -> KitSettings:
@@ -76,7 +94,8 @@ def _generatrix(table: GeneratrixTable, folder: Path) -> tuple[PlanarCurve, tupl
     return place_generatrix(curve, table.origin, table.axes, table.outside), notes
 
 
-def _request(field: str, project: Project) -> Request:
+def division_request(field: str, project: Project) -> Request:
+    """Give what dividing the rail or the generatrix (`field`) needs, as the project says it."""
     table = project.rail if field == "rail" else project.generatrix
     limits = FormLimits(
         min_member=project.tolerances.min_member,

@@ -197,3 +197,20 @@ def test_usage_errors_exit_2_without_a_traceback(tmp_path, arguments):
     result = run(*arguments, folder=tmp_path)
     assert result.returncode in ({0, 2} if not arguments else {2})
     assert "Traceback" not in result.stderr
+
+
+def test_compare_prints_and_writes_the_families(tmp_path, project_file):
+    project_file(SMALL)
+    compared = run("compare", "project.toml", "--out", "families.csv", folder=tmp_path)
+    assert compared.returncode == 0, compared.stderr
+    assert "edge-offset" in compared.stdout
+    assert (tmp_path / "families.csv").read_text().count("\n") == 6
+
+
+def test_draw_writes_a_picture_and_refuses_other_formats(tmp_path, project_file):
+    project_file(SMALL)
+    assert run("draw", "project.toml", "--out", "roof.svg", "--view", "curvature", folder=tmp_path).returncode == 0
+    assert (tmp_path / "roof.svg").read_text().startswith("<svg")
+    refused = run("draw", "project.toml", "--out", "roof.png", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "E-DRAW-FILE" in refused.stderr

@@ -50,6 +50,10 @@ TABLES: dict[str, tuple[str, ...]] = {
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",
         "strips": "strip along pieces length_mm width_mm sagitta_mm area_m2 file",
+        "families": """family parallels generatrices nodes_count node_classes interior_node_classes members_count
+            member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
+            planarity_mm conical_deg circular_deg cone_spread_deg mismatch_mm torsion_deg deviation_mm
+            horizontal_parallels reason""",
         "checks": "id what count worst where limit unit status reason",
     }.items()
 }
@@ -63,10 +67,13 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
     **dict.fromkeys(("price",), 2),
     **dict.fromkeys(("value",), 12),
     **dict.fromkeys(("worst", "limit"), None),
+    **dict.fromkeys(("aspect",), 3),
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
-    "quantity valence slots facets holes i j first_corner parts cuts pieces count".split()  # noqa: SIM905
+    """quantity valence slots facets holes i j first_corner parts cuts pieces count parallels generatrices nodes_count
+    node_classes interior_node_classes members_count member_classes panels_count panel_classes
+    horizontal_parallels""".split()  # noqa: SIM905
 )
 _YES_NO = frozenset(("turned_over",))
 

@@ -122,20 +122,27 @@ class Mesh:
 
 def make_mesh(surface: Surface) -> Mesh:
     """Flatten the product form into arrays of nodes, edges and faces."""
-    parallels, generatrices = surface.V.shape[:2]
     closed = (surface.profile.closed, surface.rail.closed)
+    rows = np.flatnonzero(~surface.profile.gap)
+    return grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed, rows)
+
+
+def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool], rows: Ints | None = None) -> Mesh:
+    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n); `rows` of panels or all."""
+    parallels, generatrices = nodes.shape[:2]
+    rows = np.arange(parallels - (not closed[0])) if rows is None else rows
     number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
-    rows, strips = np.flatnonzero(~surface.profile.gap), generatrices - (not closed[1])
+    strips = generatrices - (not closed[1])
     above, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
     up, along, corner = number[rows], number[:, :strips], number[rows, :strips]
     quads = np.stack([corner, beside[rows, :strips], np.roll(above, -1, axis=1)[rows, :strips], above[rows, :strips]])
     edges = [np.stack([up, above[rows]]), np.stack([along, beside[:, :strips]])]
     first = np.concatenate([up.ravel(), along.ravel()])
     return Mesh(
-        nodes=surface.V.reshape(-1, 3),
-        axes=node_axes(surface).reshape(-1, 3),
+        nodes=nodes.reshape(-1, 3),
+        axes=axes.reshape(-1, 3),
         node_ij=_ij(number.ravel(), generatrices),
-        kind=_kinds(surface).ravel(),
+        kind=kinds.ravel(),
         edges=np.concatenate([edge.reshape(2, -1).T for edge in edges]),
         family=np.repeat([Family.GENERATRIX, Family.PARALLEL], [up.size, along.size]),
         edge_ij=_ij(first, generatrices),

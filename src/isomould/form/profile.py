@@ -61,7 +61,7 @@ def make_profile(polygon: CurvePolygon, parallels: Floats | None) -> Profile:
     """
     latitude = polygon.edges.direction - np.pi / 2
     turning = np.nan_to_num(polygon.turning)
-    a, b = _face_offset(polygon, latitude) if parallels is None else (np.cos(parallels), np.sin(parallels))
+    a, b = face_offset(polygon, latitude) if parallels is None else (np.cos(parallels), np.sin(parallels))
     inner = np.isfinite(polygon.turning)
     return Profile(
         d=polygon.vertices[:, 0].copy(),
@@ -85,7 +85,7 @@ def beside(polygon: CurvePolygon, values: Floats) -> tuple[Floats, Floats]:
     return np.concatenate([values[:1], values]), np.concatenate([values, values[-1:]])
 
 
-def _face_offset(polygon: CurvePolygon, latitude: Floats) -> tuple[Floats, Floats]:
+def face_offset(polygon: CurvePolygon, latitude: Floats) -> tuple[Floats, Floats]:
     """Vertices of the polygon circumscribed to the unit circle with the edges' normals (geometry §4)."""
     before, after = beside(polygon, latitude)
     middle, reach = (before + after) / 2, np.cos((after - before) / 2)

@@ -102,7 +102,7 @@ def _said(away: Floats) -> str:
 
 
 def _refuse_generatrices(profile: Profile, side: float) -> None:
-    lengths = np.where(profile.gap, np.inf, profile.lengths + side * _stretch(profile))
+    lengths = np.where(profile.gap, np.inf, profile.lengths + side * stretch(profile))
     if lengths.min() > 0:
         return
     row = int(np.argmin(lengths))
@@ -116,7 +116,7 @@ def _refuse_generatrices(profile: Profile, side: float) -> None:
     )
 
 
-def _stretch(profile: Profile) -> Floats:
+def stretch(profile: Profile) -> Floats:
     """Growth (e,) of a profile edge's length per mm of offset: the signed length of its edge in O."""
     field = np.stack([profile.a, profile.b], axis=-1)
     ahead = np.roll(field, -1, axis=0) if profile.closed else field[1:]

@@ -47,7 +47,14 @@ def write_npz(path: Path, arrays: Mapping[str, NDArray[np.generic]]) -> None:
     write_bytes(path, zip_bytes({f"{name}.npy": _npy(array) for name, array in arrays.items()}))
 
 
-def write_obj(path: Path, vertices: Floats, faces: Ints, offsets: Ints, groups: Sequence[str]) -> None:
+def write_obj(
+    path: Path,
+    vertices: Floats,
+    faces: Ints,
+    offsets: Ints,
+    groups: Sequence[str],
+    lines: Mapping[str, Ints] | None = None,
+) -> None:
     """Write a polygon mesh as OBJ in mm, one group per face.
 
     Parameters
@@ -60,12 +67,15 @@ def write_obj(path: Path, vertices: Floats, faces: Ints, offsets: Ints, groups: 
         Where each face starts in `faces`.
     groups : sequence of f str
         A name per face: its mark and location.
+    lines : mapping of group to (2,) int, optional
+        Line elements between two vertices.
     """
     points = [" ".join(["v", *(format_number(x, _OBJ_DECIMALS) for x in vertex)]) for vertex in vertices.tolist()]
     corners = np.split(faces + 1, offsets[1:-1])
     named = zip(groups, corners, strict=True)
     polygons = [f"g {group}\nf {' '.join(map(str, face.tolist()))}" for group, face in named]
-    write_bytes(path, ("\n".join(["# isomould, lengths in mm", *points, *polygons]) + "\n").encode())
+    strokes = [f"g {group}\nl {' '.join(map(str, (ends + 1).tolist()))}" for group, ends in (lines or {}).items()]
+    write_bytes(path, ("\n".join(["# isomould, lengths in mm", *points, *polygons, *strokes]) + "\n").encode())
 
 
 def write_glb(path: Path, shapes: Mapping[str, tuple[Floats, Ints]], instances: Sequence[Instance]) -> None:

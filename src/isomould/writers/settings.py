@@ -6,9 +6,18 @@ from pydantic import Field
 
 from isomould.parts.strips import Along
 from isomould.settings import Settings
+from isomould.units import Length
 
 LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]
+
+
+class DoubleLayerSettings(Settings):
+    """A second layer with members parallel to the first one's: what keeps the distance, and which side it lies on."""
+
+    offset: Literal["edge", "face", "vertex"]
+    distance: Length
+    """Positive to the outside."""
 
 
 class DeliverSettings(Settings):
@@ -18,3 +27,4 @@ class DeliverSettings(Settings):
     """Other names for the layers of the machine DXF."""
     strips: tuple[Along, ...] = ()
     """Strips to unroll: between neighbouring generatrices, between neighbouring parallels."""
+    double_layer: DoubleLayerSettings | None = None
