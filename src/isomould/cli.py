@@ -98,6 +98,10 @@ def build(
 def verify(folder: Path) -> None:
     """Prove a delivered folder again, from its files alone."""
     certificate = isomould.verify(folder)
+    passed = sum(check.status == "pass" for check in certificate.checks)
+    click.echo(f"{folder}: {passed} checks passed, {len(certificate.failures)} failed")
+    for check in certificate.failures:
+        click.echo(f"failed: {check.id} {check.what}: {check.reason or check.where}")
     _console().print(_certificate_table(certificate))
     if not certificate.passed:
         raise isomould.CertificateFailed(f"E-CERTIFICATE {folder}: {len(certificate.failures)} checks failed")

@@ -60,6 +60,11 @@ BROKEN = {
     "line break in the name": ({"project": {"name": "a\nb"}}, ["project.name", "control characters"]),
     "direction override in the name": ({"project": {"name": "a\u202eb"}}, ["project.name"]),
     "kerf over gap": ({"stock": {"gap": 1, "kerf": 3}}, ["gap 1 mm is less than the kerf 3 mm"]),
+    "classes wider than the gaps": (
+        {"panels": {"gap": 2}, "tolerances": {"length": 1.5}},
+        ["1.5 mm", "panels.gap = 2 mm"],
+    ),
+    "classes without limits": ({"tolerances": {"angle_deg": 30}}, ["tolerances.angle_deg", "0.5"]),
     "future schema": ({"schema": 2}, ["schema", "1"]),
     "layer with a line break": ({"deliver": {"layers": {"CUT": "A\nB"}}}, ["deliver.layers"]),
 }

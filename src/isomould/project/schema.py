@@ -1,6 +1,6 @@
 """The project file: the settings of every stage, composed (deliverables, Project file)."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
@@ -64,8 +64,8 @@ class GeneratrixTable(Settings):
 class ToleranceTable(Settings):
     """The `[tolerances]` table: when parts are the same, and what the mesh may not exceed."""
 
-    length: PositiveLength = 0.5
-    angle_deg: PositiveNumber = 0.05
+    length: Annotated[PositiveLength, Field(le=5.0)] = 0.5
+    angle_deg: Annotated[PositiveNumber, Field(le=0.5)] = 0.05
     min_member: PositiveLength = 100.0
     max_deviation: NonNegativeLength | None = None
     max_turning_deg: PositiveNumber = 60.0
@@ -92,6 +92,16 @@ class Project(Settings):
     stock: StockSettings | None = None
     deliver: DeliverSettings = DeliverSettings()
     limits: LimitTable = LimitTable()
+
+    @model_validator(mode="after")
+    def _classes_fit_the_gaps(self) -> "Project":
+        if self.tolerances.length > self.panels.gap / 2:
+            message = (
+                f"tolerances.length = {self.tolerances.length:g} mm is more than half of panels.gap = "
+                f"{self.panels.gap:g} mm: parts of one class would close the gaps"
+            )
+            raise ValueError(message)
+        return self
 
     @model_validator(mode="after")
     def _kind_fits_division(self) -> "Project":
