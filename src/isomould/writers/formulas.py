@@ -50,7 +50,7 @@ def number_format(column: Column) -> str:
     if column.decimals is None:
         return "0.00E+00"
     return _NUMBER_FORMATS.get(
-        column.name.rpartition("_")[2], {2: "#,##0.00", 9: "0.0000"}.get(column.decimals, "General")
+        column.name.rpartition("_")[2], {2: "#,##0.00", 9: "0.0000", 12: "#,##0.###"}.get(column.decimals, "General")
     )
 
 
