@@ -7,7 +7,8 @@ import numpy as np
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans, arcs
 from isomould.errors import Refused
-from isomould.form.closing import open_polygon
+from isomould.form.arc_lattices import shared_lattices
+from isomould.form.closing import open_polygon, split_straights
 from isomould.form.division import Request, refuse_straight, smooth_spans
 from isomould.form.lattice import KoebeLattice, koebe_lattice
 from isomould.form.polygon import CurvePolygon
@@ -33,13 +34,28 @@ def divide_for_edge_offset(
     request
         For the limits and field names.
     """
+    _refuse_way(request)
     turns = _upright(smooth_spans(curve, request.field))
     refuse_straight(arcs(turns), request.field)
     lattice = koebe_lattice(turning, np.radians(phase.slope_deg) if isinstance(phase, SlopePhase) else phase)
     _refuse_pole(turns, lattice, min_pole_angle, request.field)
-    edges = tangent_edges(curve, turns, lattice, request.field)
+    edges = tangent_edges(curve, turns, shared_lattices(turns, lattice), request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
-    return open_polygon(curve, edges, request.limits.min_member, request.field), lattice
+    polygon = open_polygon(curve, edges, request.limits.min_member, request.field)
+    return split_straights(curve, polygon, request.treatment.max_edge), lattice
+
+
+def _refuse_way(request: Request) -> None:
+    """Refuse ways that leave the lattice: all slopes of an edge offset mesh are given."""
+    way = request.treatment.inflections
+    if way in ("residual", "fit"):
+        raise Refused(
+            "E-GENERATRIX-WAY",
+            f"{request.field}.inflections",
+            f"'{way}' for an edge offset mesh, whose slopes are given",
+            "'nearest'",
+            "Set inflections = 'nearest', or surface.kind = 'isogonal'.",
+        )
 
 
 def _upright(turns: Spans) -> Spans:

@@ -33,6 +33,7 @@ class RailTable(Settings):
     """Default: mitred for edge offset meshes, square for all others."""
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+    max_edge: PositiveLength | None = None
 
 
 class GeneratrixTable(Settings):
@@ -45,6 +46,7 @@ class GeneratrixTable(Settings):
     divide: GeneratrixDivide = GeneratrixDivide()
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+    max_edge: PositiveLength | None = None
 
 
 class ToleranceTable(Settings):
@@ -82,10 +84,13 @@ class Project(Settings):
     @model_validator(mode="after")
     def _kind_fits_division(self) -> "Project":
         kind, rail, generatrix = self.surface.kind, self.rail.divide, self.generatrix.divide
-        if kind != "moulding" and rail.nodes is None and rail.angle_deg is None:
+        if kind != "moulding" and rail.nodes is None and rail.angle_deg is None and rail.angles is None:
             message = (
                 f"surface.kind = '{kind}' has one turning angle: it needs rail.divide = {{nodes}} or {{angle_deg}}"
             )
+            raise ValueError(message)
+        if kind == "edge-offset" and rail.angles is not None:
+            message = "surface.kind = 'edge-offset' has one turning angle: rail.divide = {angles} gives several"
             raise ValueError(message)
         if (kind == "edge-offset") != (generatrix.phase is not None):
             message = "generatrix.divide = {phase} and surface.kind = 'edge-offset' go together"
