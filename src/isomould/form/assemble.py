@@ -17,6 +17,7 @@ from isomould.form.profile import make_profile
 from isomould.form.rail import Ends, planar_rail
 from isomould.form.settings import GeneratrixDivide, SurfaceSettings
 from isomould.form.surface import Surface, make_surface, refuse_flips
+from isomould.form.survey import division_notes
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +73,8 @@ def make_form(
     surface = make_surface(frame, make_profile(generatrix, lattice))
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    return Form(surface, rail, generatrix, (*_turning_notes(rail), *_flat_notes(rail, edge_offset)))
+    notes = (*_turning_notes(rail), *_flat_notes(rail, edge_offset), *division_notes(rail, rail_request))
+    return Form(surface, rail, generatrix, (*notes, *division_notes(generatrix, generatrix_request)))
 
 
 def _divide_generatrix(
@@ -86,7 +88,7 @@ def _divide_generatrix(
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
-    if settings.kind == "moulding" or rail.angle is not None:
+    if settings.kind != "edge-offset" or rail.angle is not None:
         return
     raise Refused(
         "E-RAIL-ANGLES",
