@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from isomould.design import Design, make_design
+from isomould.design import Design, make_design, requests_of
 from isomould.documents.overview import Fact, kit_facts
 from isomould.errors import Note, Refused
+from isomould.form.survey import Division, survey
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
@@ -26,10 +27,15 @@ from isomould.writers.names import safe_name
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """A design that was computed without writing files, its key figures, and what should be known about it."""
+    """A design that was computed without writing files, its key figures, and what should be known about it.
+
+    `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
+    lies off the curve.
+    """
 
     design: Design
     facts: tuple[Fact, ...]
+    divisions: tuple[Division, ...]
     notes: tuple[Note, ...]
 
 
@@ -59,7 +65,9 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     """
     loaded = load_project(Path(project), changes)
     design = make_design(loaded.project, loaded.folder)
-    return Checked(design, kit_facts(design.kit), design.notes)
+    curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
+    divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
+    return Checked(design, kit_facts(design.kit), divisions, design.notes)
 
 
 def build(
