@@ -8,7 +8,7 @@ from typing import Literal
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.design import Design, make_design
+from isomould.design import Design, make_design, requests_of
 from isomould.documents.graph import curvature_picture
 from isomould.documents.overview import Fact, kit_facts
 from isomould.documents.picture import Picture
@@ -16,6 +16,7 @@ from isomould.documents.views import SpaceView, developed_picture, space_picture
 from isomould.errors import Note, Refused
 from isomould.form.assemble import RailInSpace
 from isomould.form.spatial import SpatialPolygon
+from isomould.form.survey import Division, survey
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
@@ -37,10 +38,15 @@ View = SpaceView | Literal["developed", "curvature"]
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """A design that was computed without writing files, its key figures, and what should be known about it."""
+    """A design that was computed without writing files, its key figures, and what should be known about it.
+
+    `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
+    lies off the curve.
+    """
 
     design: Design
     facts: tuple[Fact, ...]
+    divisions: tuple[Division, ...]
     notes: tuple[Note, ...]
 
 
@@ -70,7 +76,9 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     """
     loaded = load_project(Path(project), changes)
     design = make_design(loaded.project, loaded.folder)
-    return Checked(design, kit_facts(design.kit), design.notes)
+    curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
+    divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
+    return Checked(design, kit_facts(design.kit), divisions, design.notes)
 
 
 def build(

@@ -21,6 +21,7 @@ from isomould.comparison import families_table
 from isomould.documents import table as tables
 from isomould.documents.numbers import format_number
 from isomould.errors import IsomouldError
+from isomould.form.survey import Division
 from isomould.nesting.search import Effort
 from isomould.nesting.stop import Stop
 from isomould.templates import describe_template, template_names
@@ -63,6 +64,7 @@ def check(project: Path, changes: Sequence[str]) -> None:
     for item, value, unit in checked.facts:
         table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
     _console().print(table)
+    _console().print(_division_table(checked.divisions))
     for note in checked.notes:
         _warn(f"note: {note}")
 
@@ -161,6 +163,21 @@ def _families(families: tables.Table) -> Table:
 
 def _short(cell: tables.Cell) -> str:
     return format_number(cell) if isinstance(cell, int | float) else str(cell)
+
+
+def _division_table(divisions: Sequence[Division]) -> Table:
+    """One row per arc, after the curve's own row: its nodes by angle and the deviation of its polygon."""
+    table = Table(box=None)
+    for heading in ("curve", "turning", "steps", "nearest angle", "nodes", "deviation"):
+        table.add_column(heading, overflow="fold")
+    for part in divisions:
+        nodes = "; ".join(f"{angle.nodes} of {angle.angle_deg:.6f}°" for angle in part.angles)
+        table.add_row(part.field, "", "", "", nodes, f"{part.deviation:.3f} mm")
+        for number, arc in enumerate(part.arcs, 1):
+            steps = "" if arc.steps is None else f"{arc.steps:.4f}"
+            near = "" if arc.nearest_deg is None else f"{arc.nearest_deg:.6f}°"
+            table.add_row(f"  arc {number}", f"{arc.turning_deg:.6f}°", steps, near, "", "")
+    return table
 
 
 def _certificate_table(certificate: Certificate) -> Table:

@@ -12,6 +12,7 @@ from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Note, Refused
 from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
+from isomould.form.fitting import fit_curve
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
@@ -43,12 +44,13 @@ def make_design(project: Project, folder: Path) -> Design:
     Refused
         If the project asks for something that cannot be made.
     """
-    rail, rail_notes = _rail(project.rail, folder)
-    generatrix, generatrix_notes = _generatrix(project.generatrix, folder)
+    requests = requests_of(project)
+    rail, rail_notes = _rail(project.rail, requests[0], folder)
+    generatrix, generatrix_notes = _generatrix(project.generatrix, requests[1], folder)
     form = make_form(
         rail,
         generatrix,
-        (division_request("rail", project), division_request("generatrix", project)),
+        requests,
         project.surface,
         project.members.section.depth,
     )
@@ -80,18 +82,26 @@ def kit_settings(project: Project) -> KitSettings:
     return KitSettings(project.members, project.nodes, project.panels, tolerance)
 
 
-def _rail(table: RailTable, folder: Path) -> tuple[RailInPlane | RailInSpace, tuple[Note, ...]]:
+def requests_of(project: Project) -> tuple[Request, Request]:
+    """Say how rail and generatrix are to be divided."""
+    return division_request("rail", project), division_request("generatrix", project)
+
+
+def _rail(table: RailTable, request: Request, folder: Path) -> tuple[RailInPlane | RailInSpace, tuple[Note, ...]]:
     if table.up is not None:
         spatial, notes = build_spatial_curve(table.curve, folder, "rail.curve")
         return RailInSpace(spatial, np.array(table.up)), notes
     plane = build_plane(table.plane, "rail.plane")
-    curve, notes = build_curve(table.curve, folder, plane, "rail.curve")
-    return RailInPlane(orient_rail(curve, table.outside or (0.0, 0.0)), plane, table.ends), notes
+    fitted, fit_notes = fit_curve(table.curve, request)
+    curve, notes = build_curve(fitted, folder, plane, "rail.curve")
+    drawn = RailInPlane(orient_rail(curve, table.outside or (0.0, 0.0)), plane, table.ends)
+    return drawn, (*notes, *fit_notes)
 
 
-def _generatrix(table: GeneratrixTable, folder: Path) -> tuple[PlanarCurve, tuple[Note, ...]]:
-    curve, notes = build_curve(table.curve, folder, None, "generatrix.curve")
-    return place_generatrix(curve, table.origin, table.axes, table.outside), notes
+def _generatrix(table: GeneratrixTable, request: Request, folder: Path) -> tuple[PlanarCurve, tuple[Note, ...]]:
+    fitted, fit_notes = fit_curve(table.curve, request)
+    curve, notes = build_curve(fitted, folder, None, "generatrix.curve")
+    return place_generatrix(curve, table.origin, table.axes, table.outside), (*notes, *fit_notes)
 
 
 def division_request(field: str, project: Project) -> Request:
@@ -103,4 +113,5 @@ def division_request(field: str, project: Project) -> Request:
         max_turning_deg=project.tolerances.max_turning_deg,
         max_panels=project.limits.max_panels,
     )
-    return Request(field, table.divide, Treatment(inflections=table.inflections, flat_nodes=table.flat_nodes), limits)
+    treatment = Treatment(inflections=table.inflections, flat_nodes=table.flat_nodes, max_edge=table.max_edge)
+    return Request(field, table.divide, treatment, limits)

@@ -37,6 +37,8 @@ def test_new_check_and_list(tmp_path):
     checked = run("check", "roof.toml", "--set", 'rail.curve.rise="8 m"', folder=tmp_path)
     assert checked.returncode == 0
     assert "680" in checked.stdout
+    assert "nearest angle" in checked.stdout
+    assert "generatrix" in checked.stdout
     assert "barrel-vault" in run("new", "--list", folder=tmp_path).stdout
     assert [path.name for path in tmp_path.iterdir()] == ["roof.toml"]
 

@@ -41,6 +41,7 @@ def projects(draw):
             "axes": "zd",
             "divide": divide,
             "flat_nodes": draw(st.booleans()),
+            "inflections": "nearest" if kind == "edge-offset" else draw(st.sampled_from(["nearest", "residual"])),
         },
         "surface": {"kind": kind},
         "tolerances": {"min_member": 20},

@@ -21,6 +21,7 @@ from isomould.form.rail import Ends, Rail, planar_rail
 from isomould.form.settings import SurfaceSettings
 from isomould.form.spatial import SpatialPolygon, divide_in_space
 from isomould.form.surface import Surface, make_surface, refuse_flips
+from isomould.form.survey import division_notes
 
 
 class RailInPlane(NamedTuple):
@@ -88,7 +89,9 @@ def make_form(
     notes = (*_turning_notes(rail), *pole_notes, *_sagitta_notes(rail))
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
-    return Form(surface, rail, generatrix, notes)
+    if isinstance(rail, CurvePolygon):
+        notes += division_notes(rail, rail_request)
+    return Form(surface, rail, generatrix, (*notes, *division_notes(generatrix, generatrix_request)))
 
 
 def _make_rail(
@@ -112,7 +115,7 @@ def _divide_generatrix(
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
-    if settings.kind == "moulding" or rail.angle is not None:
+    if settings.kind != "edge-offset" or rail.angle is not None:
         return
     raise Refused(
         "E-RAIL-ANGLES",

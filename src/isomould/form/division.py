@@ -7,14 +7,19 @@ import numpy as np
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Arcs, Spans, arcs, spans, tangency
 from isomould.errors import Refused
+from isomould.form.arc_lattices import residual_lattices, several_lattices, shared_lattices
 from isomould.form.chords import drawn_polygon, station_polygon
-from isomould.form.closing import closed_polygon, open_polygon
+from isomould.form.closing import closed_polygon, open_polygon, split_straights
 from isomould.form.lattice import EvenLattice, Lattice
 from isomould.form.polygon import CurvePolygon, unit
 from isomould.form.settings import FormLimits, GeneratrixDivide, RailDivide, Treatment
-from isomould.form.tangents import split_at_inflections, tangent_edges
+from isomould.form.tangents import refuse_noise, split_at_inflections, tangent_edges
 
 _WHOLE = 1e-9
+_LEVEL = 1e-6
+"""Tangents whose distances differ by less (mm) support a curve alike."""
+_OWN_TANGENTS = ("residual", "fit")
+"""Ways in which the tangents at inflections are edges, so that no other direction can be prescribed."""
 
 
 @dataclass(frozen=True)
@@ -36,16 +41,18 @@ def divide_curve(curve: PlanarCurve, request: Request) -> CurvePolygon:
         If the curve has kinks, too little or noisy curvature, or the request does not fit it.
     """
     divide = request.divide
+    if divide.stations is not None or not _asks_for_angles(divide):
+        _refuse_max_edge(request)
     if isinstance(divide.stations, int):
         refuse_size(divide.stations, request.limits)
     if divide.stations is not None:
         return station_polygon(curve, divide.stations, request.field)
     if not _asks_for_angles(divide):
         return drawn_polygon(curve, request.field)
+    _refuse_first(request)
     turns = smooth_spans(curve, request.field)
-    if curve.closed:
-        return _divide_closed(curve, turns, request)
-    return _divide_open(curve, turns, request)
+    polygon = _divide_closed(curve, turns, request) if curve.closed else _divide_open(curve, turns, request)
+    return split_straights(curve, polygon, request.treatment.max_edge)
 
 
 def refuse_size(count: float, limits: FormLimits) -> None:
@@ -62,7 +69,7 @@ def refuse_size(count: float, limits: FormLimits) -> None:
 
 def _asks_for_angles(divide: RailDivide | GeneratrixDivide) -> bool:
     per_arc = getattr(divide, "per_arc", None)
-    return divide.nodes is not None or divide.angle_deg is not None or per_arc is not None
+    return any(way is not None for way in (divide.nodes, divide.angle_deg, divide.angles, per_arc))
 
 
 def smooth_spans(curve: PlanarCurve, field: str) -> Spans:
@@ -81,16 +88,52 @@ def smooth_spans(curve: PlanarCurve, field: str) -> Spans:
     return turns
 
 
+def turning_angle(curve: PlanarCurve, request: Request) -> float:
+    """Turning angle α (rad) of a division by nodes or angle, whatever the curve's inflections."""
+    turns = smooth_spans(curve, request.field)
+    if curve.closed:
+        return 2 * np.pi / _closed_count(arcs(turns), request)
+    return _open_lattice(turns, arcs(turns), request).step
+
+
 def _divide_open(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePolygon:
     runs = arcs(turns)
     refuse_straight(runs, request.field)
-    lattice = _open_lattice(turns, runs, request)
-    _check_angle(lattice.step, runs, request)
-    _refuse_incommensurable(turns, runs, lattice, request)
-    edges = tangent_edges(curve, turns, lattice, request.field)
+    lattices = _open_lattices(curve, turns, request)
+    _refuse_incommensurable(turns, runs, lattices, request)
+    edges = tangent_edges(curve, turns, lattices, request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
-    shortest = request.limits.min_member if request.divide.angle_deg is not None else 0.0
+    prescribed = request.divide.angle_deg is not None or request.divide.angles is not None
+    shortest = request.limits.min_member if prescribed else 0.0
     return open_polygon(curve, turns, edges, shortest, request.field)
+
+
+def _open_lattices(curve: PlanarCurve, turns: Spans, request: Request) -> tuple[Lattice, ...]:
+    """Give the lattice of every arc: from the start tangent, or from a prescribed first direction."""
+    ranges = request.divide.angles
+    if ranges is None:
+        return _lattices(curve, turns, _open_lattice(turns, arcs(turns), request), request)
+    _refuse_several(curve, request)
+    for part in ranges:
+        _check_angle(float(np.radians(part.angle_deg)), arcs(turns), request)
+    first = _first(float(turns.theta0[0]), request)
+    return several_lattices(curve, turns, ranges, first, request.field)
+
+
+def _lattices(curve: PlanarCurve, turns: Spans, lattice: EvenLattice, request: Request) -> tuple[Lattice, ...]:
+    """Give the lattice of every arc for one turning angle, by the way that inflections are treated."""
+    _check_angle(lattice.step, arcs(turns), request)
+    shared = shared_lattices(turns, lattice)
+    if request.treatment.inflections != "residual" or len(shared) == 1:
+        return shared
+    refuse_noise(curve, turns, shared, request.field)
+    return residual_lattices(turns, lattice.step)
+
+
+def _first(start: float, request: Request) -> float:
+    """Direction (rad) of the first edge: as prescribed, else that of the curve's start."""
+    first = request.divide.first_deg
+    return start if first is None else _branch(np.radians(first), start)
 
 
 def _open_lattice(turns: Spans, runs: Arcs, request: Request) -> EvenLattice:
@@ -101,8 +144,7 @@ def _open_lattice(turns: Spans, runs: Arcs, request: Request) -> EvenLattice:
         return EvenLattice(start, total / divide.nodes)
     if isinstance(divide, GeneratrixDivide) and divide.per_arc is not None:
         return EvenLattice(start, _equal_arcs(runs, request.field) / divide.per_arc)
-    first = start if divide.first_deg is None else _branch(np.radians(divide.first_deg), start)
-    return EvenLattice(first, float(np.radians(divide.angle_deg or 0.0)))
+    return EvenLattice(_first(start, request), float(np.radians(divide.angle_deg or 0.0)))
 
 
 def _branch(direction: float, near: float) -> float:
@@ -126,17 +168,17 @@ def _equal_arcs(runs: Arcs, field: str) -> float:
 
 
 def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePolygon:
-    runs = arcs(turns)
     total = float((turns.theta1 - turns.theta0).sum())
     refuse_not_simple(total, request.field)
-    count = _closed_count(runs, request)
-    step = 2 * np.pi / count
-    _check_angle(step, runs, request)
+    _refuse_several(curve, request)
     walk = from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
-    lattice = EvenLattice(float(walk.theta0[0]), step)
-    _refuse_incommensurable(walk, arcs(walk), lattice, request)
-    edges = tangent_edges(curve, walk, lattice, request.field)
-    edges = edges.take(np.arange(len(edges.index) - 1))
+    if request.treatment.inflections in _OWN_TANGENTS and len(arcs(walk).sign) > 1:
+        walk = _from_inflection(walk)
+    lattice = EvenLattice(float(walk.theta0[0]), 2 * np.pi / _closed_count(arcs(turns), request))
+    lattices = _lattices(curve, walk, lattice, request)
+    _refuse_incommensurable(walk, arcs(walk), lattices, request)
+    edges = tangent_edges(curve, walk, lattices, request.field)
+    edges = edges if walk.closed else edges.take(np.arange(len(edges.index) - 1))
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     return closed_polygon(curve, edges, float(np.sign(total)) * 2 * np.pi, request.field)
 
@@ -176,7 +218,8 @@ def from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float,
     """Cut a closed curve's spans open at its outermost tangent of direction `first` (rad).
 
     The drawing's start point has no influence: of several tangents with this direction, the one that supports the
-    whole curve is taken, and of a straight part its middle.
+    whole curve is taken, of several points where it does (beside a dent) the hindmost, and of a straight part its
+    middle.
     """
     lower = np.minimum(turns.theta0, turns.theta1)
     upper = np.maximum(turns.theta0, turns.theta1)
@@ -184,13 +227,15 @@ def from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float,
     candidates = np.flatnonzero((direction <= upper + _WHOLE) & (turns.sign != -sense))
     if len(candidates) == 0:
         candidates = np.flatnonzero(direction <= upper + _WHOLE)
-    candidates = candidates[np.argsort(turns.sign[candidates] != 0, kind="stable")]
     target = np.clip(direction[candidates], lower[candidates], upper[candidates])
     middle = (turns.t0[candidates] + turns.t1[candidates]) / 2
-    straight = turns.sign[candidates] == 0
-    parameter = np.where(straight, middle, tangency(curve, turns, candidates, target))
-    support = curve.point(turns.piece[candidates], parameter) @ unit(np.array([first - sense * np.pi / 2]))[0]
-    best = int(np.argmax(np.round(support, 6)))
+    curved = turns.sign[candidates] != 0
+    parameter = np.where(curved, tangency(curve, turns, candidates, target), middle)
+    contact = curve.point(turns.piece[candidates], parameter)
+    support = contact @ unit(np.array([first - sense * np.pi / 2]))[0]
+    outermost = np.flatnonzero(support >= support.max() - _LEVEL)
+    along = np.round(contact[outermost] @ unit(np.array([first]))[0], 6)
+    best = int(outermost[np.lexsort((along, curved[outermost]))[0]])
     return _cut_open(turns, int(candidates[best]), float(parameter[best]), float(direction[candidates[best]]))
 
 
@@ -211,6 +256,28 @@ def _cut_open(turns: Spans, span: int, parameter: float, direction: float) -> Sp
         theta1=theta1,
         sign=turns.sign[order],
         closed=False,
+    )
+
+
+def _from_inflection(walk: Spans) -> Spans:
+    """Start the spans of a closed curve, cut open anywhere, at an inflection or straight part instead."""
+    runs = arcs(walk)
+    first = int(runs.first[1 if runs.sign[0] else 2])
+    order = np.concatenate([np.arange(first, len(walk.sign)), np.arange(1, first)])
+    full = float((walk.theta1 - walk.theta0).sum())
+    t1, theta0, theta1 = walk.t1.copy(), walk.theta0.copy(), walk.theta1.copy()
+    theta0[:first] += full
+    theta1[:first] += full
+    t1[-1], theta1[-1] = t1[0], theta1[0]
+    return replace(
+        walk,
+        piece=walk.piece[order],
+        t0=walk.t0[order],
+        t1=t1[order],
+        theta0=theta0[order],
+        theta1=theta1[order],
+        sign=walk.sign[order],
+        closed=True,
     )
 
 
@@ -252,11 +319,47 @@ def refuse_not_simple(total: float, field: str) -> None:
         )
 
 
-def _refuse_incommensurable(turns: Spans, runs: Arcs, lattice: Lattice, request: Request) -> None:
-    """Hold arcs to whole numbers of steps where the project asks for it (inflections = "refuse")."""
-    if request.treatment.inflections != "refuse":
+def _refuse_first(request: Request) -> None:
+    if request.divide.first_deg is not None and request.treatment.inflections in _OWN_TANGENTS:
+        raise Refused(
+            "E-CURVE-FIRST",
+            f"{request.field}.divide.first_deg",
+            f"{request.divide.first_deg:g}° beside inflections = '{request.treatment.inflections}'",
+            "none: the directions follow from the tangents at inflections",
+            "Leave out first_deg, or set inflections = 'nearest'.",
+        )
+
+
+def _refuse_several(curve: PlanarCurve, request: Request) -> None:
+    """Hold several angles to what they can have: an open curve, and one rule for its inflections."""
+    way = request.treatment.inflections
+    if request.divide.angles is not None and (curve.closed or way in _OWN_TANGENTS):
+        raise Refused(
+            "E-CURVE-ANGLES",
+            f"{request.field}.divide.angles",
+            "several angles on a closed curve" if curve.closed else f"several angles with inflections = '{way}'",
+            "an open curve, and inflections = 'nearest' or 'refuse'",
+            "Give one angle_deg or nodes, or change the above.",
+        )
+
+
+def _refuse_max_edge(request: Request) -> None:
+    if request.treatment.max_edge is not None:
+        raise Refused(
+            "E-CURVE-MAX-EDGE",
+            f"{request.field}.max_edge",
+            f"{request.treatment.max_edge:g} mm for a curve with its vertices as drawn or at stations",
+            "a curve divided by angles, whose straight parts are single edges",
+            "Leave it out, and draw or list the vertices that you want.",
+        )
+
+
+def _refuse_incommensurable(turns: Spans, runs: Arcs, lattices: tuple[Lattice, ...], request: Request) -> None:
+    """Hold arcs to whole numbers of steps where the project asks for it (inflections = "refuse", "fit")."""
+    if request.treatment.inflections not in ("refuse", "fit"):
         return
-    steps = np.abs(lattice.index(turns.theta1[runs.last]) - lattice.index(turns.theta0[runs.first]))
+    ends = np.stack([turns.theta0[runs.first], turns.theta1[runs.last]], axis=1)
+    steps = np.array([abs(np.diff(lattice.index(pair))[0]) for lattice, pair in zip(lattices, ends, strict=True)])
     off = np.abs(steps - np.rint(steps)) > 1e-9 * np.maximum(steps, 1)
     if np.any(off & (runs.sign != 0)):
         angles = np.degrees(np.abs(runs.turning[runs.sign != 0]))
@@ -265,7 +368,7 @@ def _refuse_incommensurable(turns: Spans, runs: Arcs, lattice: Lattice, request:
             "E-CURVE-ARCS",
             f"{request.field}.divide",
             f"arcs that turn by {', '.join(f'{angle:.6f}°' for angle in angles)}",
-            "whole multiples of the turning angle (inflections = 'refuse')",
+            f"whole multiples of the turning angle (inflections = '{request.treatment.inflections}')",
             f"Nearest admissible angles by arc: {', '.join(f'{angle:.6f}°' for angle in near)}; "
             "or inflections = 'nearest'.",
         )

@@ -8,7 +8,8 @@ from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans, arcs
 from isomould.errors import Note, Refused
-from isomould.form.closing import open_polygon
+from isomould.form.arc_lattices import shared_lattices
+from isomould.form.closing import open_polygon, split_straights
 from isomould.form.division import Request, from_direction, refuse_not_simple, refuse_straight, smooth_spans
 from isomould.form.lattice import KoebeLattice, half_width
 from isomould.form.phase import choose_lattice
@@ -43,6 +44,7 @@ def divide_for_edge_offset(
     notes
         What was left out at poles.
     """
+    _refuse_way(request)
     turns = _upright(curve, request.field)
     refuse_straight(arcs(turns), request.field)
     strips, cut = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
@@ -103,10 +105,24 @@ def _other_end(edge: float, shared: float) -> float:
 def _divide_strip(curve: PlanarCurve, strip: Spans, turning: float, request: Request) -> tuple[CurvePolygon, Floats]:
     """Divide a stretch of the generatrix without poles."""
     lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
-    edges = tangent_edges(curve, strip, lattice, request.field)
+    edges = tangent_edges(curve, strip, shared_lattices(strip, lattice), request.field)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     polygon = open_polygon(curve, strip, edges, request.limits.min_member, request.field)
+    polygon = split_straights(curve, polygon, request.treatment.max_edge)
     return polygon, vertex_parallels(polygon, lattice)
+
+
+def _refuse_way(request: Request) -> None:
+    """Refuse ways that leave the lattice: all slopes of an edge offset mesh are given."""
+    way = request.treatment.inflections
+    if way in ("residual", "fit"):
+        raise Refused(
+            "E-GENERATRIX-WAY",
+            f"{request.field}.inflections",
+            f"'{way}' for an edge offset mesh, whose slopes are given",
+            "'nearest'",
+            "Set inflections = 'nearest', or surface.kind = 'isogonal'.",
+        )
 
 
 def _pole_notes(strips: int, settings: SurfaceSettings) -> tuple[Note, ...]:
@@ -158,6 +174,8 @@ def _forecast(curve: PlanarCurve, strip: Spans, turning: float, limit_deg: float
     """Say how many rows lead from the phase to the limit, and how high the lowest of them is."""
     lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
     rows = int(np.ceil((np.arctanh(np.tan(np.radians(limit_deg) / 2)) - lattice.start) / lattice.step))
-    heights = np.linalg.norm(np.diff(joints(tangent_edges(curve, strip, lattice, request.field)), axis=0), axis=1)
+    heights = np.linalg.norm(
+        np.diff(joints(tangent_edges(curve, strip, shared_lattices(strip, lattice), request.field)), axis=0), axis=1
+    )
     lowest = f", the lowest of them {heights.min():.1f} mm high" if len(heights) else ""
     return f" ({rows} rows lead from the phase to the limit{lowest})"

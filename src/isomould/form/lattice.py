@@ -1,6 +1,7 @@
 """The directions that tangent lines may have: a numbered, increasing sequence of angles.
 
-An *even* lattice steps by the constant turning angle α (paper §4.1). A *Koebe* lattice steps through
+An *even* lattice steps by the constant turning angle α (paper §4.1). A *listed* one has the directions of a
+single arc, where steps differ (several angles, leftover turning: geometry §2). A *Koebe* lattice steps through
 the slopes that an edge offset mesh admits (paper §3.6 with the erratum of geometry §5).
 """
 
@@ -9,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from isomould.arrays import Floats
+from isomould.arrays import Floats, read_only
 
 
 class Lattice(Protocol):
@@ -42,6 +43,31 @@ class EvenLattice:
     def index(self, direction: Floats) -> Floats:
         """Real-valued indices (n,)."""
         return (direction - self.first) / self.step
+
+
+@dataclass(frozen=True, eq=False)
+class ListedLattice:
+    """Directions listed one by one, numbered from 0; beyond both ends they go on in the outermost steps.
+
+    >>> ListedLattice(np.array([0.0, 0.25, 1.0])).direction(np.array([1.0, 3.0]))
+    array([0.25, 1.75])
+    """
+
+    listed: Floats
+    """(n,) increasing directions, rad; n at least 2."""
+
+    def __post_init__(self) -> None:
+        read_only(self.listed)
+
+    def direction(self, index: Floats) -> Floats:
+        """Tangent directions (n,) rad."""
+        low = np.clip(np.floor(index), 0, len(self.listed) - 2).astype(np.int64)
+        return self.listed[low] + (index - low) * (self.listed[low + 1] - self.listed[low])
+
+    def index(self, direction: Floats) -> Floats:
+        """Real-valued indices (n,)."""
+        low = np.clip(np.searchsorted(self.listed, direction, side="right") - 1, 0, len(self.listed) - 2)
+        return low + (direction - self.listed[low]) / (self.listed[low + 1] - self.listed[low])
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans
+from isomould.form.arc_lattices import shared_lattices
 from isomould.form.closing import end_points
 from isomould.form.lattice import KoebeLattice, koebe_lattice
 from isomould.form.poles import half_of
@@ -50,7 +51,7 @@ def fit_lattice(curve: PlanarCurve, turns: Spans, lattice: KoebeLattice, field: 
 
 def end_misses(curve: PlanarCurve, turns: Spans, lattice: KoebeLattice, field: str) -> Floats:
     """Distances (2,) mm of the ends of the curve from the lines of the first and the last edge."""
-    edges = tangent_edges(curve, turns, lattice, field)
+    edges = tangent_edges(curve, turns, shared_lattices(turns, lattice), field)
     if len(edges.index) == 0:
         return np.zeros(2)
     return np.abs(cross(end_points(curve, turns) - edges.contact[[0, -1]], unit(edges.direction[[0, -1]])))

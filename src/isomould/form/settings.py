@@ -8,7 +8,7 @@ from isomould.settings import Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 
 Kind = Literal["isogonal", "moulding", "monge", "edge-offset"]
-Inflections = Literal["nearest", "refuse"]
+Inflections = Literal["nearest", "residual", "fit", "refuse"]
 
 
 def _at_least_one(value: int) -> int:
@@ -34,17 +34,38 @@ class SlopePhase(Settings):
     slope_deg: Annotated[Number, AfterValidator(_acute)]
 
 
+class AngleRange(Settings):
+    """A turning angle, and how far along the oriented curve it goes; the last range goes to the end."""
+
+    until: PositiveLength | None = None
+    angle_deg: PositiveNumber
+
+
+def _ordered(ranges: tuple[AngleRange, ...]) -> tuple[AngleRange, ...]:
+    """Refuse ranges that do not follow each other up to the end of the curve."""
+    ends = [part.until for part in ranges]
+    borders = [end for end in ends[:-1] if end is not None]
+    if not ends or ends[-1] is not None or len(borders) < len(ends) - 1 or borders != sorted(set(borders)):
+        message = "every range but the last needs an until, each greater than the one before; the last has none"
+        raise ValueError(message)
+    return ranges
+
+
+AngleRanges = Annotated[tuple[AngleRange, ...], AfterValidator(_ordered)]
+
+
 class RailDivide(Settings):
-    """How the rail is divided: exactly one of `nodes`, `angle_deg` and `stations`; none for a drawn polyline."""
+    """How the rail is divided: exactly one way; none for a drawn polyline."""
 
     nodes: PositiveCount | None = None
     angle_deg: PositiveNumber | None = None
+    angles: AngleRanges | None = None
     stations: PositiveCount | tuple[Length, ...] | None = None
     first_deg: Number | None = None
 
     @model_validator(mode="after")
     def _one_way(self) -> "RailDivide":
-        _refuse_two_ways(self, ("nodes", "angle_deg", "stations"))
+        _refuse_two_ways(self, ("nodes", "angle_deg", "angles", "stations"))
         return self
 
 
@@ -53,6 +74,7 @@ class GeneratrixDivide(Settings):
 
     nodes: PositiveCount | None = None
     angle_deg: PositiveNumber | None = None
+    angles: AngleRanges | None = None
     per_arc: PositiveCount | None = None
     stations: PositiveCount | tuple[Length, ...] | None = None
     phase: Literal["centre", "node", "fit"] | SlopePhase | None = None
@@ -60,7 +82,7 @@ class GeneratrixDivide(Settings):
 
     @model_validator(mode="after")
     def _one_way(self) -> "GeneratrixDivide":
-        _refuse_two_ways(self, ("nodes", "angle_deg", "per_arc", "stations", "phase"))
+        _refuse_two_ways(self, ("nodes", "angle_deg", "angles", "per_arc", "stations", "phase"))
         return self
 
 
@@ -72,10 +94,11 @@ def _refuse_two_ways(table: Settings, names: tuple[str, ...]) -> None:
 
 
 class Treatment(Settings):
-    """What the division does at inflections and short ends."""
+    """What the division does at inflections, straight parts and short ends."""
 
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+    max_edge: PositiveLength | None = None
 
 
 class TrimPlane(Settings):

@@ -4,10 +4,11 @@ The curve falls into arcs that turn one way. On an arc the lattice directions fo
 step. Where two arcs meet, at an inflection or a straight part, one edge goes through the inflection
 point (the middle of the straight part) with the nearest lattice direction, and the sequence goes on
 from it: tangents of equal direction on the two sides are parallel and are never intersected
-(geometry §2, the way `nearest`).
+(geometry §2). What the lattices of the arcs are is decided in `arc_lattices`.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,23 +25,25 @@ _NOISE = 0.01
 
 @dataclass(frozen=True)
 class _Pivot:
-    """The one edge through an inflection or straight part: lattice index, contact, role."""
+    """The one edge through an inflection or straight part: direction (rad) with its number, contact, role."""
 
-    index: int
+    index: float
+    direction: float
     piece: int
     parameter: float
     role: Role
 
 
-def tangent_edges(curve: PlanarCurve, turns: Spans, lattice: Lattice, field: str) -> Edges:
+def tangent_edges(curve: PlanarCurve, turns: Spans, lattices: Sequence[Lattice], field: str) -> Edges:
     """Find the edges of the tangent polygon, from the first span to the last.
 
     Parameters
     ----------
     curve, turns
-        The curve and its monotone spans in walking order.
-    lattice
-        The admissible directions; spans must lie in its range.
+        The curve and its monotone spans in walking order. Closed spans must start at an inflection or straight part.
+    lattices
+        The admissible directions of every arc (`arcs(turns)`), straight parts included; spans must lie in their
+        range, and the lattices of neighbours must share the direction between them.
     field
         Name of the project's table, for errors.
 
@@ -50,30 +53,37 @@ def tangent_edges(curve: PlanarCurve, turns: Spans, lattice: Lattice, field: str
         If an arc turns too little for the lattice, or is noise.
     """
     runs = arcs(turns)
-    _refuse_noise(curve, turns, runs, lattice, field)
-    pivots = [_pivot_before(curve, turns, runs, run, lattice) for run in range(len(runs.sign) + 1)]
+    refuse_noise(curve, turns, lattices, field)
+    pivots = [_pivot_before(curve, turns, runs, run, lattices) for run in range(len(runs.sign))]
+    pivots.append(_turned_round(pivots[0], turns))
     edges: list[Edges] = []
     for run, sign in enumerate(runs.sign):
         if sign == 0:
-            edges.append(_pivot_edge(curve, _straight_pivot(curve, turns, runs, run, lattice), lattice))
+            edges.append(_pivot_edge(curve, _straight_pivot(curve, turns, runs, run, lattices[run])))
             continue
         before, after = pivots[run], pivots[run + 1]
         if before is not None and before.role is Role.INFLECTION:
-            edges.append(_pivot_edge(curve, before, lattice))
-        numbers = _numbers(turns, runs, run, lattice, before, after, field)
-        edges.append(_tangents(curve, turns, runs, run, numbers, lattice))
+            edges.append(_pivot_edge(curve, before))
+        numbers = _numbers(turns, runs, run, lattices[run], before, after, field)
+        edges.append(_tangents(curve, turns, runs, run, numbers, lattices[run]))
     return join(edges)
 
 
-def _pivot_before(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, lattice: Lattice) -> _Pivot | None:
-    if run in (0, len(runs.sign)):
+def _pivot_before(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, lattices: Sequence[Lattice]) -> _Pivot | None:
+    if run == 0 and not turns.closed:
         return None
-    for neighbour in (run - 1, run):
+    for neighbour in (max(run - 1, 0), run):
         if runs.sign[neighbour] == 0:
-            return _straight_pivot(curve, turns, runs, neighbour, lattice)
+            return _straight_pivot(curve, turns, runs, neighbour, lattices[neighbour])
     span = int(runs.first[run])
-    number = _nearest(lattice, turns.theta0[span])
-    return _Pivot(number, int(turns.piece[span]), float(turns.t0[span]), Role.INFLECTION)
+    number, direction = nearest(lattices[max(run - 1, 0)], turns.theta0[span])
+    return _Pivot(number, direction, int(turns.piece[span]), float(turns.t0[span]), Role.INFLECTION)
+
+
+def _turned_round(first: _Pivot | None, turns: Spans) -> _Pivot | None:
+    """Give the pivot that a closed curve ends with: its first one, after the whole turn."""
+    full = float((turns.theta1 - turns.theta0).sum())
+    return None if first is None else replace(first, direction=first.direction + full)
 
 
 def _straight_pivot(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, lattice: Lattice) -> _Pivot:
@@ -81,8 +91,8 @@ def _straight_pivot(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, latt
     ends = curve.point(turns.piece[[first, last]], np.array([turns.t0[first], turns.t1[last]]))
     middle = ends.mean(axis=0)
     span, parameter = _on_straight(curve, turns, first, last, middle)
-    number = _nearest(lattice, turns.theta0[first])
-    return _Pivot(number, int(turns.piece[span]), parameter, Role.STRAIGHT)
+    number, direction = nearest(lattice, turns.theta0[first])
+    return _Pivot(number, direction, int(turns.piece[span]), parameter, Role.STRAIGHT)
 
 
 def _on_straight(curve: PlanarCurve, turns: Spans, first: int, last: int, point: Floats) -> tuple[int, float]:
@@ -96,8 +106,10 @@ def _on_straight(curve: PlanarCurve, turns: Spans, first: int, last: int, point:
     return int(rows[row]), float(t0 + np.clip(share[row], 0, 1) * (t1 - t0))
 
 
-def _nearest(lattice: Lattice, direction: float) -> int:
-    return int(np.rint(np.round(lattice.index(np.array([direction]))[0], 9)))
+def nearest(lattice: Lattice, direction: float) -> tuple[float, float]:
+    """Give number and direction (rad) of the lattice direction that is nearest, counted in steps."""
+    number = np.rint(np.round(lattice.index(np.array([direction])), 9))
+    return float(number[0]), float(lattice.direction(number)[0])
 
 
 def _numbers(
@@ -113,11 +125,15 @@ def _numbers(
     sign = int(runs.sign[run])
     ends = np.array([turns.theta0[runs.first[run]], turns.theta1[runs.last[run]]])
     first, last = sign * lattice.index(ends)
-    low = np.ceil(first - _ON_LATTICE) if before is None else sign * before.index + 1
-    high = np.floor(last + _ON_LATTICE) if after is None else sign * after.index - 1
+    low = np.ceil(first - _ON_LATTICE) if before is None else sign * _number(lattice, before) + 1
+    high = np.floor(last + _ON_LATTICE) if after is None else sign * _number(lattice, after) - 1
     if before is not None and after is not None and high < low - 1:
         _refuse_short_arc(float(runs.turning[run]), lattice, field)
     return (sign * np.arange(low, high + 1)).astype(np.int64)
+
+
+def _number(lattice: Lattice, pivot: _Pivot) -> float:
+    return nearest(lattice, pivot.direction)[0]
 
 
 def _tangents(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, numbers: Ints, lattice: Lattice) -> Edges:
@@ -134,10 +150,9 @@ def _tangents(curve: PlanarCurve, turns: Spans, runs: Arcs, run: int, numbers: I
     return Edges(index, direction, contact, piece, parameter, (Role.TANGENT,) * len(index))
 
 
-def _pivot_edge(curve: PlanarCurve, pivot: _Pivot, lattice: Lattice) -> Edges:
+def _pivot_edge(curve: PlanarCurve, pivot: _Pivot) -> Edges:
     piece, parameter = np.array([pivot.piece]), np.array([pivot.parameter])
-    index = np.array([float(pivot.index)])
-    direction = lattice.direction(index)
+    index, direction = np.array([pivot.index]), np.array([pivot.direction])
     return Edges(index, direction, curve.point(piece, parameter), piece, parameter, (pivot.role,))
 
 
@@ -156,10 +171,12 @@ def split_at_inflections(edges: Edges) -> Edges:
     return edges.take(np.repeat(np.arange(len(edges.role)), twice))
 
 
-def _refuse_noise(curve: PlanarCurve, turns: Spans, runs: Arcs, lattice: Lattice, field: str) -> None:
-    """Refuse curves whose curvature flickers (failure mode B5)."""
-    turned = np.abs(np.diff(lattice.index(np.stack([turns.theta0[runs.first], turns.theta1[runs.last]])), axis=0))[0]
-    noisy = np.flatnonzero((turned < _NOISE) & (runs.sign != 0))
+def refuse_noise(curve: PlanarCurve, turns: Spans, lattices: Sequence[Lattice], field: str) -> None:
+    """Refuse curves whose curvature flickers (failure mode B5); an arc cut at its very end is none."""
+    runs = arcs(turns)
+    ends = np.stack([turns.theta0[runs.first], turns.theta1[runs.last]], axis=1)
+    turned = np.array([abs(np.diff(lattice.index(pair))[0]) for lattice, pair in zip(lattices, ends, strict=True)])
+    noisy = np.flatnonzero((turned < _NOISE) & (turned > _ON_LATTICE) & (runs.sign != 0))
     if len(noisy) and len(runs.sign) > 1:
         span = runs.first[noisy[0]]
         x, y = curve.point(turns.piece[[span]], turns.t0[[span]])[0]

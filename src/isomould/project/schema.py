@@ -36,13 +36,14 @@ class RailTable(Settings):
     """Default: mitred for edge offset meshes, square for all others."""
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+    max_edge: PositiveLength | None = None
 
     @model_validator(mode="after")
     def _plane_or_space(self) -> "RailTable":
         if self.up is None and self.outside is None:
             message = "outside is missing: say where the outside of the rail lies (or up, for a rail in space)"
             raise ValueError(message)
-        planar = sorted(self.model_fields_set & {"plane", "outside", "ends", "inflections", "flat_nodes"})
+        planar = sorted(self.model_fields_set & {"plane", "outside", "ends", "inflections", "flat_nodes", "max_edge"})
         if self.up is not None and planar:
             message = f"{' and '.join(planar)} cannot stand beside up: they are for planar rails"
             raise ValueError(message)
@@ -59,6 +60,7 @@ class GeneratrixTable(Settings):
     divide: GeneratrixDivide = GeneratrixDivide()
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
+    max_edge: PositiveLength | None = None
 
 
 class ToleranceTable(Settings):
@@ -106,7 +108,7 @@ class Project(Settings):
     @model_validator(mode="after")
     def _kind_fits_division(self) -> "Project":
         kind, rail, generatrix = self.surface.kind, self.rail.divide, self.generatrix.divide
-        by_angle = rail.nodes is not None or rail.angle_deg is not None
+        by_angle = any(way is not None for way in (rail.nodes, rail.angle_deg, rail.angles))
         if (kind == "monge") != (self.rail.up is not None):
             message = "surface.kind = 'monge' and rail.up = [x, y, z] go together: a rail in space"
             raise ValueError(message)
@@ -117,6 +119,9 @@ class Project(Settings):
             message = (
                 f"surface.kind = '{kind}' has one turning angle: it needs rail.divide = {{nodes}} or {{angle_deg}}"
             )
+            raise ValueError(message)
+        if kind == "edge-offset" and rail.angles is not None:
+            message = "surface.kind = 'edge-offset' has one turning angle: rail.divide = {angles} gives several"
             raise ValueError(message)
         if (kind == "edge-offset") != (generatrix.phase is not None):
             message = "generatrix.divide = {phase} and surface.kind = 'edge-offset' go together"
