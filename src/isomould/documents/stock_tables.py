@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from isomould.arrays import Floats
 from isomould.documents.table import Table, make_table
 from isomould.nesting.layout import BarLayout, Layout, Placement, Sheet
 from isomould.nesting.settings import StockSettings
+from isomould.parts.outline import area, sides
 
 Columns = dict[str, list[object]]
 
@@ -16,15 +16,15 @@ def sheet_table(layout: Layout, stock: StockSettings) -> Table:
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
     for placement in layout.placements:
         on[placement.sheet].append(placement)
-    area = [sum(_area(p.points) for p in on[sheet.id]) for sheet in layout.sheets]
+    areas = [sum(abs(area(p.points - p.points[0])) for p in on[sheet.id]) for sheet in layout.sheets]
     offcut = [_offcut(sheet, on[sheet.id], stock) for sheet in layout.sheets]
     data: Columns = {
         "sheet": [sheet.id for sheet in layout.sheets],
         "stock": [sheet.stock for sheet in layout.sheets],
         "parts": [len(on[sheet.id]) for sheet in layout.sheets],
-        "part_area_m2": [value / 1e6 for value in area],
-        "yield_percent": [100 * a / (s.width * s.height) for a, s in zip(area, layout.sheets, strict=True)],
-        "cut_length_mm": [sum(_perimeter(p.points) for p in on[sheet.id]) for sheet in layout.sheets],
+        "part_area_m2": [value / 1e6 for value in areas],
+        "yield_percent": [100 * a / (s.width * s.height) for a, s in zip(areas, layout.sheets, strict=True)],
+        "cut_length_mm": [sum(float(sides(p.points).sum()) for p in on[sheet.id]) for sheet in layout.sheets],
         "cuts": [len(on[sheet.id]) for sheet in layout.sheets],
         "offcut_width_mm": [width for width, _ in offcut],
         "offcut_height_mm": [height for _, height in offcut],
@@ -46,15 +46,6 @@ def bar_table(layout: BarLayout, stock: StockSettings) -> Table:
         "price": [price[bar.section, bar.length] for bar in layout.bars],
     }
     return make_table("bars", data)
-
-
-def _area(points: Floats) -> float:
-    x, y = (points - points[0]).T
-    return abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2
-
-
-def _perimeter(points: Floats) -> float:
-    return float(np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).sum())
 
 
 def _offcut(sheet: Sheet, placements: list[Placement], stock: StockSettings) -> tuple[float, float]:
