@@ -8,7 +8,7 @@ import os
 import re
 import shutil
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from isomould.errors import Refused
@@ -43,6 +43,7 @@ def candidate(target: Path, replace: bool = False) -> Generator[Path]:
     target = _absolute(target)
     if not target.name:
         raise _refused(target, "the root of a disk", "a folder on it", "Choose another with --out.")
+    missing = [parent for parent in target.parents if not parent.exists()]
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with locked(_beside(target, _LOCK)):
@@ -51,6 +52,8 @@ def candidate(target: Path, replace: bool = False) -> Generator[Path]:
             yield from _written(target)
     except OSError as error:
         raise fault(target, error) from error
+    finally:
+        _remove_empty(missing)
 
 
 def _written(target: Path) -> Generator[Path]:
@@ -63,6 +66,13 @@ def _written(target: Path) -> Generator[Path]:
         _publish(folder, target)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _remove_empty(folders: list[Path]) -> None:
+    """Remove the parents that were made for a target that was not published, the innermost first."""
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def _absolute(target: Path) -> Path:
