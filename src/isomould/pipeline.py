@@ -7,7 +7,8 @@ from pathlib import Path
 
 from isomould.curves.settings import DxfSettings
 from isomould.cutting import nest_kit
-from isomould.delivery import Delivery, make_tables, write_delivery
+from isomould.delivery.folder import write_delivery
+from isomould.delivery.goods import Delivery, make_tables
 from isomould.design import Design, make_design
 from isomould.documents.table import Table
 from isomould.errors import CertificateFailed

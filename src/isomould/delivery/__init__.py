@@ -1,0 +1,1 @@
+"""Writing a delivery: every file of the folder, from finished values (deliverables, Folder)."""

@@ -1,0 +1,97 @@
+"""The folder `model/`: arrays, meshes and the building in one file."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from isomould.arrays import Floats, Ints
+from isomould.delivery.goods import Delivery
+from isomould.form.mesh import Family
+from isomould.measure.offsets import DoubleLayer
+from isomould.parts.marks import locations
+from isomould.parts.members import MemberParts
+from isomould.parts.nodes import NodeParts
+from isomould.parts.panels import PanelParts
+from isomould.parts.plates import extrude
+from isomould.parts.poses import member_poses, node_poses, panel_poses
+from isomould.record import describe_design
+from isomould.writers.disk import write_bytes
+from isomould.writers.model import Instance, write_glb, write_npz, write_obj
+
+
+def write_model(folder: Path, delivery: Delivery) -> None:
+    """Write mesh, design record and placed solids."""
+    kit, record = delivery.design.kit, describe_design(delivery.design, delivery.cutting.stock)
+    write_npz(folder / "geometry.npz", _geometry(delivery))
+    write_bytes(folder / "design.json", (json.dumps(record, indent=1, allow_nan=False) + "\n").encode())
+    groups = [f"{mark}_{where}" for mark, where in zip(_marks(kit.panels), kit.panels.locations, strict=True)]
+    write_obj(folder / "mesh.obj", kit.mesh.nodes, kit.mesh.faces, kit.mesh.face_offsets, groups)
+    write_glb(folder / "model.glb", _shapes(delivery), _instances(delivery))
+    if delivery.design.layers is not None:
+        _write_layers(folder / "double-layer.obj", delivery.design.layers)
+
+
+def _write_layers(path: Path, layers: DoubleLayer) -> None:
+    """Write both layers, the first one's nodes first, and the members that connect them."""
+    first, second = layers.first, layers.second
+    count = len(first.nodes)
+    nodes = np.concatenate([first.nodes, second.nodes])
+    faces = np.concatenate([first.faces, second.faces + count])
+    offsets = np.concatenate([first.face_offsets, second.face_offsets[1:] + len(first.faces)])
+    groups = [f"{layer}_{where}" for layer in ("L1", "L2") for where in locations("P", first.face_ij)]
+    ends = np.arange(count)[:, None] + np.array([0, count])
+    lines = {f"L12_{where}": pair for where, pair in zip(locations("N", first.node_ij), ends, strict=True)}
+    write_obj(path, nodes, faces, offsets, groups, lines)
+
+
+def _marks(parts: NodeParts | MemberParts | PanelParts) -> list[str]:
+    return [parts.marks[k] for k in parts.classes.of]
+
+
+def _geometry(delivery: Delivery) -> dict[str, np.ndarray]:
+    kit = delivery.design.kit
+    mesh = kit.mesh
+    arrays: dict[str, np.ndarray] = {
+        "nodes": mesh.nodes,
+        "node_axes": mesh.axes,
+        "node_ij": mesh.node_ij.astype(np.int32),
+        "edges": mesh.edges.astype(np.int32),
+        "edge_family": np.array([family.word for family in Family])[mesh.family],
+        "faces": mesh.faces.astype(np.int32),
+        "face_offsets": mesh.face_offsets,
+        "face_ij": mesh.face_ij.astype(np.int32),
+    }
+    for name, parts in (("node", kit.nodes), ("edge", kit.members), ("face", kit.panels)):
+        arrays |= {f"{name}_mark": np.array(_marks(parts)), f"{name}_location": np.array(parts.locations)}
+    return arrays
+
+
+def _shapes(delivery: Delivery) -> dict[str, tuple[Floats, Ints]]:
+    """One solid per mark, in the frame of its class."""
+    kit, project = delivery.design.kit, delivery.design.project
+    half = project.members.section.thickness / 2
+    shapes = {mark: (s.vertices, s.triangles) for mark, s in zip(kit.nodes.marks, delivery.solids, strict=True)}
+    shapes |= {
+        mark: extrude(shape.outline, -half, half)
+        for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)
+    }
+    thickness = project.panels.thickness
+    levels = {False: (0.0, thickness), True: (-thickness, 0.0)}[project.panels.flippable]
+    return shapes | {
+        mark: extrude(outline, *levels) for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
+    }
+
+
+def _instances(delivery: Delivery) -> list[Instance]:
+    kit = delivery.design.kit
+    posed = (
+        (kit.nodes, node_poses(kit.mesh, kit.nodes)),
+        (kit.members, member_poses(kit.mesh, kit.members)),
+        (kit.panels, panel_poses(kit.mesh, kit.panels)),
+    )
+    return [
+        Instance(mark, where, pose)
+        for parts, poses in posed
+        for mark, where, pose in zip(_marks(parts), parts.locations, poses, strict=True)
+    ]

@@ -1,0 +1,23 @@
+"""The tables as CSV and as workbook."""
+
+from pathlib import Path
+
+from isomould.delivery.goods import Delivery
+from isomould.documents.overview import build_checks, kit_facts, layout_facts
+from isomould.documents.table import Table
+from isomould.documents.totals import make_summary
+from isomould.writers.csv import write_csv
+from isomould.writers.xlsx import write_workbook
+
+
+def write_schedules(folder: Path, delivery: Delivery, tables: tuple[Table, ...]) -> None:
+    """Write every table as CSV, the bars once more beside the saw, and the workbook."""
+    design, cutting = delivery.design, delivery.cutting
+    for table in tables:
+        write_csv(folder / "tables" / f"{table.name}.csv", table)
+    if cutting.bars:
+        write_csv(folder / "bars" / "bars.csv", next(table for table in tables if table.name == "bars"))
+    facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
+    summary = make_summary(facts, tables)
+    checks = build_checks(design.kit, delivery.solids, cutting.sheets)
+    write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), design.project.project, design.notes)
