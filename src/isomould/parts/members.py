@@ -10,6 +10,7 @@ from isomould.form.mesh import Family, Mesh
 from isomould.parts.arms import Arms
 from isomould.parts.congruence import Classes, classify
 from isomould.parts.drum import Drum
+from isomould.parts.features import Hole
 from isomould.parts.marks import locations, marks
 from isomould.parts.nodes import NodeParts
 from isomould.parts.outline import area, round_outline, sides
@@ -33,6 +34,7 @@ class MemberShape:
     bottom_length: float
     end_angle: tuple[float, float]
     set_back: tuple[float, float]
+    holes: tuple[Hole, ...] = ()
 
     @property
     def cut_length(self) -> float:
