@@ -86,6 +86,23 @@ SMALL: dict[str, Any] = {
         "sheets": [{"name": "Sheet", "width": "4 m", "height": "2.5 m", "price": 100}],
         "bars": [{"section": "FL200*12", "length": "6 m", "price": 80}],
     },
+    "costs": {
+        "node_set_up": 350,
+        "node_run": 28.5,
+        "node_steel": 1.9,
+        "slot": 6,
+        "weld": 22,
+        "coating": 18,
+        "panel_cut": 3.2,
+        "saw_cut": 4,
+        "hours_node": 0.4,
+        "hours_panel": 0.25,
+        "assembly": 58,
+        "transport": 120,
+        "erect_panel": 65,
+        "overhead": 12,
+        "margin": 8,
+    },
     "deliver": {"strips": ["generatrix", "parallel"]},
 }
 """A vault of 8 × 6 nodes with sheets, bars and strips: quick to build, everything in it."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from isomould.curves.settings import DxfSettings
 from isomould.cutting import nest_kit
 from isomould.delivery.folder import write_delivery
-from isomould.delivery.goods import Delivery, make_tables
+from isomould.delivery.goods import Delivery
 from isomould.design import Design, make_design
 from isomould.documents.table import Table
 from isomould.errors import CertificateFailed
@@ -79,11 +79,10 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
         delivery = Delivery(design, solids, cutting)
         report("schedules, drawings, models")
-        tables = make_tables(delivery)
-        write_delivery(folder, delivery, tables, spread)
+        write_delivery(folder, delivery, spread)
         report("certificate")
         certificate = _certify(folder, loaded, spread)
-    return Built(target, design, tables, certificate)
+    return Built(target, design, delivery.tables, certificate)
 
 
 def _certify(folder: Path, loaded: LoadedProject, spread: Spread) -> Certificate:

@@ -1,32 +1,17 @@
-"""LibreOffice, an independent reader, opens the workbook and recalculates every stored value."""
+"""LibreOffice, an independent reader, opens the workbook, recalculates every value, and follows every rate."""
 
-import shutil
-import subprocess
+import csv
 
 import openpyxl
 import pytest
-
-SOFFICE = shutil.which("soffice")
+from recalculate import needs_libreoffice, recalculate, with_cell
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(SOFFICE is None, reason="LibreOffice is not installed")
+@needs_libreoffice
 def test_every_stored_value_comes_back(built_folder, tmp_path):
-    profile = tmp_path / "profile"
-    settings = profile / "user" / "registrymodifications.xcu"
-    settings.parent.mkdir(parents=True)
-    settings.write_text(
-        '<?xml version="1.0" encoding="UTF-8"?><oor:items xmlns:oor="http://openoffice.org/2001/registry" '
-        'xmlns:xs="http://www.w3.org/2001/XMLSchema" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">'
-        '<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">'
-        "<value>0</value></prop></item></oor:items>"
-    )
-    command = [SOFFICE, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", "xlsx"]
-    subprocess.run(
-        [*command, "--outdir", tmp_path, built_folder / "schedules.xlsx"], check=True, capture_output=True, timeout=180
-    )
-    ours = openpyxl.load_workbook(built_folder / "schedules.xlsx", data_only=True)
-    theirs = openpyxl.load_workbook(tmp_path / "schedules.xlsx", data_only=True)
+    (book,) = recalculate([built_folder / "schedules.xlsx"], tmp_path)
+    ours, theirs = (openpyxl.load_workbook(path, data_only=True) for path in (built_folder / "schedules.xlsx", book))
     formulas = openpyxl.load_workbook(built_folder / "schedules.xlsx")
     compared = 0
     for sheet in formulas:
@@ -37,3 +22,36 @@ def test_every_stored_value_comes_back(built_folder, tmp_path):
                     assert found == (pytest.approx(stored, rel=1e-12) if isinstance(stored, float | int) else stored)
                     compared += 1
     assert compared > 50
+
+
+def read(folder, name):
+    with (folder / "tables" / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def predict(folder, rates):
+    """Add up the cost from the quantities and rates alone."""
+    pieces = {name: sum(int(row["quantity"]) for row in read(folder, name)) for name in ("nodes", "members", "panels")}
+    quantity = {line["code"]: float(line["quantity"]) for line in read(folder, "cost")}
+    quantity["assembly"] = sum(rates[f"hours_{name[:-1]}"] * count for name, count in pieces.items())
+    works = sum(amount * rates[code] for code, amount in quantity.items())
+    return works * (1 + rates["overhead"] / 100) * (1 + rates["margin"] / 100)
+
+
+@pytest.mark.slow
+@needs_libreoffice
+def test_a_tenth_more_on_any_rate_moves_the_total_as_predicted(built_folder, tmp_path):
+    book = built_folder / "schedules.xlsx"
+    rows = {row["code"]: (k, float(row["value"] or 0)) for k, row in enumerate(read(built_folder, "rates"), start=2)}
+    rates = {code: value for code, (_, value) in rows.items()}
+    sheet = openpyxl.load_workbook(book, read_only=True).sheetnames.index("Rates") + 1
+    raised = {code: rates | {code: value * 1.1} for code, value in rates.items() if value}
+    changed = [
+        with_cell(book, sheet, f"D{rows[code][0]}", after[code], tmp_path / f"{code}.xlsx")
+        for code, after in raised.items()
+    ]
+    assert len(changed) > 12
+    for path, after in zip(recalculate(changed, tmp_path), raised.values(), strict=True):
+        found = openpyxl.load_workbook(path, data_only=True)
+        title, cell = found.defined_names["total_cost"].value.replace("$", "").rsplit("!", 1)
+        assert found[title.strip("'")][cell].value == pytest.approx(predict(built_folder, after), rel=1e-12)

@@ -21,7 +21,7 @@ def write_all(folder):
     from isomould.writers.dxf import write_dxf  # noqa: PLC0415
     from isomould.writers.model import Instance, write_glb, write_npz, write_obj  # noqa: PLC0415
     from isomould.writers.solids import write_3mf, write_stl  # noqa: PLC0415
-    from isomould.writers.xlsx import write_workbook  # noqa: PLC0415
+    from isomould.writers.xlsx import Words, write_workbook  # noqa: PLC0415
 
     corners = np.array([[0, 0, 0], [900, 0, 0], [0, 800, 0], [0, 0, 50]], float)
     solid = (corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
@@ -29,7 +29,7 @@ def write_all(folder):
     tables = (make_summary([], parts), *parts, conftest.checks())
     outline = np.array([[0, 0], [900, 0], [800, 700], [50, 700]], float)
     write_csv(folder / "bars.csv", conftest.bars())
-    write_workbook(folder / "schedules.xlsx", tables, ProjectInfo(name="Vault"))
+    write_workbook(folder / "schedules.xlsx", tables, Words(ProjectInfo(name="Vault")))
     for version in ("R2010", "R12"):
         write_dxf(folder / f"{version}.dxf", part_drawing("P01", outline), version=version)
     write_3mf(folder / "N01.3mf", *solid, "N01")

@@ -8,7 +8,7 @@ from openpyxl.utils.escape import unescape
 from isomould.documents.info import ProjectInfo
 from isomould.documents.table import cells
 from isomould.errors import Note, Refused
-from isomould.writers.xlsx import write_workbook
+from isomould.writers.xlsx import Words, write_workbook
 
 INFO = ProjectInfo(name="A & B 5 Tower", number="=7", client="@client", revision="C", date=date(2026, 3, 1))
 NOTES = [Note("W-RAIL-03", "rail.divide", "=HYPERLINK(1) straight for 6 120 mm")]
@@ -16,7 +16,7 @@ NOTES = [Note("W-RAIL-03", "rail.divide", "=HYPERLINK(1) straight for 6 120 mm")
 
 @pytest.fixture
 def path(tables, tmp_path):
-    write_workbook(tmp_path / "schedules.xlsx", tables[::-1], INFO, NOTES)
+    write_workbook(tmp_path / "schedules.xlsx", tables[::-1], Words(INFO, NOTES))
     return tmp_path / "schedules.xlsx"
 
 
@@ -128,12 +128,12 @@ def test_texts_longer_than_excel_holds_are_refused(tables, tmp_path):
     bars = next(table for table in tables if table.name == "bars")
     bars.frame.loc[0, "bar"] = "x" * 32768
     with pytest.raises(Refused, match="E-OUT-04 sheet Bars"):
-        write_workbook(tmp_path / "schedules.xlsx", tables, INFO)
+        write_workbook(tmp_path / "schedules.xlsx", tables, Words(INFO))
     assert not (tmp_path / "schedules.xlsx").exists()
 
 
 def test_tables_without_rows_are_written(tables, tmp_path):
     empty = [table.__class__(table.name, table.title, table.columns, table.frame.iloc[:0]) for table in tables]
-    write_workbook(tmp_path / "empty.xlsx", empty, INFO)
+    write_workbook(tmp_path / "empty.xlsx", empty, Words(INFO))
     book = openpyxl.load_workbook(tmp_path / "empty.xlsx", data_only=True)
     assert [cell.value for cell in book["Panels"][2] if cell.value is not None] == []

@@ -7,15 +7,14 @@ from isomould.delivery.machine import write_machine_files, write_setting_out, wr
 from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
 from isomould.delivery.schedules import write_schedules
-from isomould.documents.table import Table
 from isomould.workers import Spread
 
 
-def write_delivery(folder: Path, delivery: Delivery, tables: tuple[Table, ...], spread: Spread) -> None:
+def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write all files but certificate and manifest into an empty folder."""
     write_model(folder / "model", delivery)
     write_machine_files(folder, delivery, spread)
     write_nodes(folder / "nodes", delivery)
-    write_schedules(folder, delivery, tables)
+    write_schedules(folder, delivery)
     write_strips(folder / "strips", delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

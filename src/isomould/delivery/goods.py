@@ -5,12 +5,15 @@ from functools import cached_property
 
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
+from isomould.documents.costs import Cost, Price, Pricing, make_cost
 from isomould.documents.schedules import part_tables
-from isomould.documents.stock_tables import bar_table, sheet_table
+from isomould.documents.stock_tables import bar_name, bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table
+from isomould.nesting.settings import BarStock, SheetStock, StockSettings
 from isomould.parts.solid import Solid
 from isomould.parts.strips import Strip, unroll_strips
+from isomould.project.schema import Project
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,14 +25,40 @@ class Delivery:
     cutting: Cutting
 
     @cached_property
+    def schedules(self) -> tuple[Table, ...]:
+        """Parts, stock and strips, in the order of the workbook."""
+        return make_schedules(self)
+
+    @cached_property
+    def cost(self) -> Cost:
+        """The schedules, priced."""
+        return make_cost(self.schedules, _pricing(self.design.project, self.cutting.stock))
+
+    @cached_property
+    def tables(self) -> tuple[Table, ...]:
+        """All tables; summary and checks apart."""
+        return (self.cost.rates, self.cost.lines, *self.schedules)
+
+    @cached_property
     def strips(self) -> tuple[Strip, ...]:
         """The strips that the project asks for, unrolled."""
         mesh, asked = self.design.kit.mesh, self.design.project.deliver.strips
         return tuple(strip for along in asked for strip in unroll_strips(mesh, along))
 
 
-def make_tables(delivery: Delivery) -> tuple[Table, ...]:
-    """Give the tables of the schedules, in the order of the workbook; summary and checks apart."""
+def _pricing(project: Project, stock: StockSettings) -> Pricing:
+    """Gather rates and the prices of what is in stock."""
+    sheets = tuple(Price(sheet.name, _given(sheet)) for sheet in stock.sheets)
+    bars = tuple(Price(bar_name(bar.section, bar.length), _given(bar)) for bar in stock.bars)
+    return Pricing(project.costs, sheets, bars, project.nodes.density)
+
+
+def _given(stock: SheetStock | BarStock) -> float | None:
+    return stock.price if "price" in stock.model_fields_set else None
+
+
+def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
+    """Give the tables of the schedules, in the order of the workbook."""
     design, cutting = delivery.design, delivery.cutting
     settings = kit_settings(design.project)
     tables = part_tables(design.kit, settings, delivery.solids, cutting.placed, cutting.positions)

@@ -4,15 +4,14 @@ from pathlib import Path
 
 from isomould.delivery.goods import Delivery
 from isomould.documents.overview import build_checks, kit_facts, layout_facts
-from isomould.documents.table import Table
 from isomould.documents.totals import make_summary
 from isomould.writers.csv import write_csv
-from isomould.writers.xlsx import write_workbook
+from isomould.writers.xlsx import Words, write_workbook
 
 
-def write_schedules(folder: Path, delivery: Delivery, tables: tuple[Table, ...]) -> None:
+def write_schedules(folder: Path, delivery: Delivery) -> None:
     """Write every table as CSV, the bars once more beside the saw, and the workbook."""
-    design, cutting = delivery.design, delivery.cutting
+    design, cutting, tables = delivery.design, delivery.cutting, delivery.tables
     for table in tables:
         write_csv(folder / "tables" / f"{table.name}.csv", table)
     if cutting.bars:
@@ -20,4 +19,5 @@ def write_schedules(folder: Path, delivery: Delivery, tables: tuple[Table, ...])
     facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
     summary = make_summary(facts, tables)
     checks = build_checks(design.kit, delivery.solids, cutting.sheets)
-    write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), design.project.project, design.notes)
+    words = Words(design.project.project, design.notes, delivery.cost.results)
+    write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), words)

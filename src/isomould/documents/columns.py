@@ -54,6 +54,8 @@ TABLES: dict[str, tuple[str, ...]] = {
             member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
             planarity_mm conical_deg circular_deg cone_spread_deg mismatch_mm torsion_deg deviation_mm
             horizontal_parallels reason""",
+        "rates": "code description unit value",
+        "cost": "code group description unit quantity waste_percent rate amount",
         "checks": "id what count worst where limit unit status reason",
     }.items()
 }
@@ -65,7 +67,7 @@ _DECIMALS = {"mm": 3, "deg": 4, "kg": 3, "m2": 12, "cm3": 3, "percent": 3}
 _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
     **dict.fromkeys(("axis_x", "axis_y", "axis_z", "ref_x", "ref_y", "ref_z"), 9),
     **dict.fromkeys(("price",), 2),
-    **dict.fromkeys(("value",), 12),
+    **dict.fromkeys(("value", "rate", "amount"), 12),
     **dict.fromkeys(("worst", "limit"), None),
     **dict.fromkeys(("aspect",), 3),
 }
@@ -75,6 +77,8 @@ _INTEGERS = frozenset(
     node_classes interior_node_classes members_count member_classes panels_count panel_classes
     horizontal_parallels""".split()  # noqa: SIM905
 )
+_TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
+"""In the cost a quantity is whatever is paid for, not a number of pieces."""
 _YES_NO = frozenset(("turned_over",))
 
 _TOTALS: dict[str, frozenset[str]] = {
@@ -83,6 +87,7 @@ _TOTALS: dict[str, frozenset[str]] = {
     "panels": frozenset(("quantity", "total_area_m2", "total_mass_kg")),
     "sheets": frozenset(("parts", "part_area_m2", "cut_length_mm", "cuts", "price")),
     "bars": frozenset(("pieces", "used_mm", "offcut_mm", "price")),
+    "cost": frozenset(("amount",)),
 }
 
 _PER_PIECE = "total_"
@@ -97,7 +102,8 @@ def columns(table: str, arms: int = 0) -> tuple[Column, ...]:
     ['Bar', 'Stock', 'Pieces', 'Used (mm)', 'Offcut (mm)', 'Price']
     """
     totals = _TOTALS.get(table, frozenset())
-    return tuple(_column(name, name in totals) for name in _names(table, arms))
+    found = (_column(name, name in totals) for name in _names(table, arms))
+    return tuple(_TAKEN_OFF if table == "cost" and column.name == "quantity" else column for column in found)
 
 
 def title(table: str) -> str:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from isomould.documents.table import Table, make_table
+from isomould.documents.live import RateCell
+from isomould.documents.table import Table, make_live_table
 from isomould.nesting.layout import BarLayout, Layout, Placement, Sheet
 from isomould.nesting.settings import StockSettings
 from isomould.parts.outline import area, sides
@@ -11,8 +12,8 @@ Columns = dict[str, list[object]]
 
 
 def sheet_table(layout: Layout, stock: StockSettings) -> Table:
-    """Give one row per sheet: parts, areas, cut lengths, the largest offcut along an edge, price."""
-    price = {sheet.name: sheet.price for sheet in stock.sheets}
+    """Give one row per sheet: parts, areas, cut lengths, the largest offcut along an edge, price (that of its rate)."""
+    price = {sheet.name: RateCell(f"sheet_{k}", sheet.price) for k, sheet in enumerate(stock.sheets, start=1)}
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
     for placement in layout.placements:
         on[placement.sheet].append(placement)
@@ -31,21 +32,30 @@ def sheet_table(layout: Layout, stock: StockSettings) -> Table:
         "price": [price.get(sheet.stock) for sheet in layout.sheets],
         "file": [f"sheets/{sheet.id}.dxf" for sheet in layout.sheets],
     }
-    return make_table("sheets", data)
+    return make_live_table("sheets", data)
 
 
 def bar_table(layout: BarLayout, stock: StockSettings) -> Table:
     """Give one row per bar; used is what pieces and kerfs take."""
-    price = {(bar.section, bar.length): bar.price for bar in stock.bars}
+    price = {(bar.section, bar.length): RateCell(f"bar_{k}", bar.price) for k, bar in enumerate(stock.bars, start=1)}
     data: Columns = {
         "bar": [bar.id for bar in layout.bars],
-        "stock": [f"{bar.section} x {bar.length:g}" for bar in layout.bars],
+        "stock": [bar_name(bar.section, bar.length) for bar in layout.bars],
         "pieces": [len(bar.cuts) for bar in layout.bars],
         "used_mm": [bar.length - bar.rest for bar in layout.bars],
         "offcut_mm": [bar.rest for bar in layout.bars],
         "price": [price[bar.section, bar.length] for bar in layout.bars],
     }
-    return make_table("bars", data)
+    return make_live_table("bars", data)
+
+
+def bar_name(section: str, length: float) -> str:
+    """Name a stock bar.
+
+    >>> bar_name("FL200*12", 6000.0)
+    'FL200*12 x 6000'
+    """
+    return f"{section} x {length:g}"
 
 
 def _offcut(sheet: Sheet, placements: list[Placement], stock: StockSettings) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pandas as pd
@@ -10,6 +10,7 @@ from pandas.api.extensions import ExtensionArray
 
 from isomould.arrays import Floats
 from isomould.documents.columns import Column, columns, per_piece, title
+from isomould.documents.live import Live
 from isomould.documents.numbers import round_to
 from isomould.errors import Refused
 
@@ -32,12 +33,26 @@ class Table:
     columns : tuple of Column
     frame : DataFrame
         One frame column per `columns`, in order; a blank is NA (an empty string in text).
+    live : mapping of column name to expressions
+        What stands behind the values of a column, row by row; None where a plain value does.
     """
 
     name: str
     title: str
     columns: tuple[Column, ...]
     frame: pd.DataFrame
+    live: Mapping[str, Sequence[Live | None]] = field(default_factory=dict[str, Sequence[Live | None]])
+
+
+def make_live_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:
+    """Make a table whose cells may be expressions: their values are its data, the expressions stay beside it.
+
+    Values of expressions are not rounded, so that a spreadsheet that computes them anew gives the very same.
+    """
+    rows = {column: list(values) for column, values in data.items()}
+    live = {c: [v if isinstance(v, Live) else None for v in vs] for c, vs in rows.items()}
+    plain = {c: [v.value if isinstance(v, Live) else v for v in vs] for c, vs in rows.items()}
+    return replace(make_table(name, plain), live={c: vs for c, vs in live.items() if any(vs)})
 
 
 def make_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from isomould.documents.columns import Column, unit
+from isomould.documents.live import Live
 from isomould.documents.numbers import format_number
 from isomould.documents.table import Table, cells, make_table
 
 
 @dataclass(frozen=True, eq=False)
-class Total:
+class Total(Live):
     """The sum or the count of the filled cells of one column of a table."""
 
     table: Table

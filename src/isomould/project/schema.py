@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from isomould.curves.plane import PlaneSettings
 from isomould.curves.settings import CurveSettings
+from isomould.documents.cost_settings import CostSettings
 from isomould.documents.info import ProjectInfo
 from isomould.form.rail import Ends
 from isomould.form.settings import (
@@ -92,6 +93,7 @@ class Project(Settings):
     panels: PanelSettings = PanelSettings()
     tolerances: ToleranceTable = ToleranceTable()
     stock: StockSettings | None = None
+    costs: CostSettings = CostSettings()
     deliver: DeliverSettings = DeliverSettings()
     limits: LimitTable = LimitTable()
 

@@ -49,6 +49,15 @@ def _subtotal(code: float, *values: Any) -> Any:
     return _FUNCTIONS[{9: "SUM", 3: "COUNTA"}[int(code) % 100]](*values)
 
 
+def _sum_if(words: list[Value], wanted: Value, values: list[Value]) -> float:
+    return math.fsum(_numbers(*(v for w, v in zip(words, values, strict=True) if w == wanted)))
+
+
+def _exact(found: Any, wanted: str) -> Any:
+    """Compare texts to the letter; a column gives a column."""
+    return [value == wanted for value in found] if isinstance(found, list) else found == wanted
+
+
 def _count_if(column: list[Value], wanted: Value) -> int:
     return sum(value == wanted for value in column)
 
@@ -69,6 +78,9 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "COUNT": lambda *v: len(_numbers(*v)),
     "COUNTA": lambda *v: sum(x not in (None, "") for x in _flat(v)),
     "COUNTIF": _count_if,
+    "COUNTBLANK": lambda *v: sum(x in (None, "") for x in _flat(v)),
+    "SUMIF": _sum_if,
+    "EXACT": _exact,
     "ROWS": len,
     "MIN": lambda *v: min(_numbers(*v), default=0.0),
     "MAX": lambda *v: max(_numbers(*v), default=0.0),
@@ -108,7 +120,7 @@ def evaluate(workbook: Workbook, sheet: str, row: int, formula: str) -> Any:
     found = _binary(reader, 0)
     if reader.tokens:
         raise Unreadable(f"cannot compute {formula}")
-    return found
+    return _scalar(found)
 
 
 def _tokens(text: str) -> list[tuple[str, str]]:
@@ -140,8 +152,13 @@ def _scalar(value: Any) -> Any:
 def _unary(reader: _Reader) -> Any:
     if reader.peek() in {"-", "+"}:
         sign = -1 if reader.take()[1] == "-" else 1
-        return sign * _scalar(_unary(reader))
+        return _signed(sign, _unary(reader))
     return _primary(reader)
+
+
+def _signed(sign: int, value: Any) -> Any:
+    """Turn truths into numbers as `--` does, cell by cell in a column."""
+    return [sign * v for v in value] if isinstance(value, list) else sign * _scalar(value)
 
 
 def _primary(reader: _Reader) -> Any:

@@ -13,7 +13,7 @@ CALCULATED = {"Summary", "Checks", "Cost", "Rates"}
 
 _NUMERIC = re.compile(
     r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity|valence|slots|facets|holes|parts|cuts|pieces|price"
-    r"|first_corner|value|worst|limit|count"
+    r"|first_corner|value|worst|limit|count|rate|amount"
 )
 _LISTS = {"packers_mm"}
 
@@ -56,7 +56,7 @@ def _strays(sheet: dict[tuple[int, int], Cell], table: Table, inside: set[tuple[
 
 
 def _agrees(column: str, text: str, cell: Cell, *, anywhere: bool) -> bool:
-    if cell.formula and not (anywhere or column.startswith("total_")):
+    if cell.formula and not (anywhere or _computed(column)):
         return False
     return _is_number(text, cell) if _wants_number(column) and text else _is_text(text, cell.value)
 
@@ -119,7 +119,12 @@ def _table_of(delivery: Delivery, title: str) -> Table:
 
 
 def _may_compute(table: Table, row: int, column: int) -> bool:
-    return row > table.rows + 1 or list(table.columns)[column - 1].startswith("total_")
+    return row > table.rows + 1 or _computed(list(table.columns)[column - 1])
+
+
+def _computed(column: str) -> bool:
+    """Tell whether the cells of a column are formulas: products with the quantity, and prices out of the rates."""
+    return column.startswith("total_") or column == "price"
 
 
 RULES = (

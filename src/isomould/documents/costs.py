@@ -1,0 +1,240 @@
+"""What a delivery costs: rates, quantities taken off the schedules, and a line for each (fabrication, Costs)."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from isomould.documents.cost_settings import CostSettings
+from isomould.documents.live import Given, Here, Live, NamedCell, RateCell
+from isomould.documents.quantities import Blanks, Tables, count, matches, products, sum_if, total
+from isomould.documents.table import Table, make_live_table
+
+GROUPS = ("Material", "Fabrication", "Hardware", "Assembly", "Transport", "Erection")
+"""Sub-totals, in the order of the lines."""
+
+
+@dataclass(frozen=True)
+class Price:
+    """A stock size and its price; None where nobody gave one."""
+
+    name: str
+    price: float | None
+
+
+@dataclass(frozen=True)
+class Pricing:
+    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³)."""
+
+    rates: CostSettings
+    sheets: tuple[Price, ...]
+    bars: tuple[Price, ...]
+    node_density: float
+
+
+@dataclass(frozen=True)
+class Rate:
+    """An input cell: `rate_<code>`."""
+
+    code: str
+    description: str
+    unit: str
+    value: float | None
+
+    @property
+    def cell(self) -> RateCell:
+        """The cell in formulas."""
+        return RateCell(self.code, self.value)
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A line of the cost: `waste` is a rate in percent where waste is paid for."""
+
+    code: str
+    group: str
+    description: str
+    unit: str
+    quantity: Live
+    rate: Rate
+    waste: Rate | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A figure below the lines; `name` is the defined name of its cell, if it has one."""
+
+    label: str
+    unit: str
+    live: Live
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Cost:
+    """Rates and lines as tables, and what follows from them."""
+
+    rates: Table
+    lines: Table
+    results: tuple[Result, ...]
+    total: float
+
+
+def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
+    """Price the schedules.
+
+    Parameters
+    ----------
+    tables
+        The schedules, nodes, members, panels and sheets among them.
+    pricing
+        Rates and stock prices.
+    """
+    by_name = {table.name: table for table in tables}
+    rates = {rate.code: rate for rate in _rates(pricing)}
+    lines = _line_table([*_lines(by_name, rates, pricing)])
+    rate_table = _rate_table(tuple(rates.values()))
+    results = _results(by_name, rates, rate_table, lines, pricing.rates.currency)
+    return Cost(rate_table, lines, results, next(r for r in results if r.name == "total_cost").live.value)
+
+
+def _rates(pricing: Pricing) -> Iterator[Rate]:
+    """Stock prices first, then the rates of the project; what stock makes needless is left out."""
+    currency = pricing.rates.currency
+    for kind, prices in (("sheet", pricing.sheets), ("bar", pricing.bars)):
+        for k, price in enumerate(prices, start=1):
+            yield Rate(f"{kind}_{k}", f"Stock {kind}: {price.name}", f"{currency}/{kind}", price.price)
+    for code, field in CostSettings.model_fields.items():
+        if code != "currency" and code not in _needless(pricing):
+            yield Rate(code, field.description or code, _unit(field, currency), getattr(pricing.rates, code))
+
+
+def _needless(pricing: Pricing) -> frozenset[str]:
+    """Rates of material by mass and area, where stock is bought."""
+    panels = ("glass", "waste_panels") if pricing.sheets else ()
+    members = ("steel", "waste_members") if pricing.bars else ()
+    return frozenset((*panels, *members))
+
+
+def _unit(field: object, currency: str) -> str:
+    extra: Mapping[str, str] = getattr(field, "json_schema_extra", None) or {}
+    return f"{currency}{extra['unit']}" if extra["unit"].startswith("/") else extra["unit"]
+
+
+def _lines(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> Iterator[Line]:
+    yield from _material(tables, rates, pricing)
+    for code, group, description, unit, quantity in _work(tables, rates):
+        yield Line(code, group, description, unit, quantity, rates[code])
+
+
+def _material(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> Iterator[Line]:
+    """Stock as bought, or net quantities and their waste; and the bar that nodes are turned from."""
+    for kind, table, prices in (("sheet", "sheets", pricing.sheets), ("bar", "bars", pricing.bars)):
+        for k, price in enumerate(prices, start=1):
+            code = f"{kind}_{k}"
+            bought = matches(tables, f"{table}.stock", price.name)
+            yield Line(code, "Material", rates[code].description, f"{kind}s", bought, rates[code])
+    if not pricing.sheets:
+        charged = products(tables, "panels.quantity", "charged_area_m2")
+        yield Line("glass", "Material", "Panels, charged area", "m²", charged, rates["glass"], rates["waste_panels"])
+    if not pricing.bars:
+        mass = total(tables, "members.total_mass_kg")
+        yield Line("steel", "Material", "Members", "kg", mass, rates["steel"], rates["waste_members"])
+    volume = [products(tables, "nodes.quantity", name) for name in ("volume_cm3", "removed_volume_cm3")]
+    blanks = (volume[0] + volume[1]) * Given(pricing.node_density) / Given(1e6)
+    yield Line("node_steel", "Material", "Round bar for nodes", "kg", blanks, rates["node_steel"])
+
+
+def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, str, str, Live], ...]:
+    """Code, group, description, unit and quantity of everything that is done."""
+    pieces = {name: total(tables, f"{name}.quantity") for name in ("nodes", "members", "panels")}
+    classes = {name: count(tables, f"{name}.mark") for name in ("nodes", "members", "panels")}
+    each = {name: products(tables, "nodes.quantity", name) for name in ("slots", "facets", "holes", "weld_length_mm")}
+    coated = [products(tables, f"{name}.quantity", "coated_area_m2") for name in ("nodes", "members")]
+    masses = [total(tables, f"{name}.total_mass_kg") for name in ("nodes", "members", "panels")]
+    hours = [pieces[f"{name}s"] * rates[f"hours_{name}"].cell for name in ("node", "member", "panel")]
+    thousand = Given(1000.0)
+    return (
+        ("panel_set_up", "Fabrication", "Panel classes", "classes", classes["panels"]),
+        ("panel_cut", "Fabrication", "Contours of panels", "m", total(tables, "sheets.cut_length_mm") / thousand),
+        ("panel_pierce", "Fabrication", "Contours to start", "pieces", total(tables, "sheets.cuts")),
+        ("member_set_up", "Fabrication", "Member classes", "classes", classes["members"]),
+        ("saw_cut", "Fabrication", "End cuts of members", "cuts", pieces["members"] * Given(2.0)),
+        ("node_set_up", "Fabrication", "Node classes", "classes", classes["nodes"]),
+        ("node_run", "Fabrication", "Nodes", "pieces", pieces["nodes"]),
+        ("slot", "Fabrication", "Slots of nodes", "pieces", each["slots"]),
+        ("facet", "Fabrication", "Facets of nodes", "pieces", each["facets"]),
+        ("hole", "Fabrication", "Bores and holes of nodes", "pieces", each["holes"]),
+        ("weld", "Fabrication", "Welds", "m", each["weld_length_mm"] / thousand),
+        ("coating", "Fabrication", "Coated area of nodes and members", "m²", coated[0] + coated[1]),
+        ("hardware", "Hardware", "Bolts, washers and small parts", "nodes", pieces["nodes"]),
+        ("assembly", "Assembly", "Hours in the shop", "h", hours[0] + hours[1] + hours[2]),
+        ("transport", "Transport", "Mass of all parts", "t", (masses[0] + masses[1] + masses[2]) / thousand),
+        ("erect_node", "Erection", "Nodes", "pieces", pieces["nodes"]),
+        ("erect_member", "Erection", "Members", "pieces", pieces["members"]),
+        ("erect_panel", "Erection", "Panels", "pieces", pieces["panels"]),
+    )
+
+
+def _rate_table(rates: Sequence[Rate]) -> Table:
+    data = {
+        "code": [rate.code for rate in rates],
+        "description": [rate.description for rate in rates],
+        "unit": [rate.unit for rate in rates],
+        "value": [rate.value for rate in rates],
+    }
+    return make_live_table("rates", data)
+
+
+def _line_table(lines: Sequence[Line]) -> Table:
+    data = {
+        "code": [line.code for line in lines],
+        "group": [line.group for line in lines],
+        "description": [line.description for line in lines],
+        "unit": [line.unit for line in lines],
+        "quantity": [line.quantity for line in lines],
+        "waste_percent": [line.waste.cell if line.waste else None for line in lines],
+        "rate": [line.rate.cell for line in lines],
+        "amount": [_amount(line) for line in lines],
+    }
+    return make_live_table("cost", data)
+
+
+def _amount(line: Line) -> Live:
+    """Quantity, with its waste where that is paid for, times rate."""
+    amount = Here("quantity", line.quantity.value) * Here("rate", line.rate.cell.value)
+    if line.waste is None:
+        return amount
+    return amount * (Given(1.0) + Here("waste_percent", line.waste.cell.value) / Given(100.0))
+
+
+def _results(
+    tables: Tables, rates: Mapping[str, Rate], rate_table: Table, lines: Table, currency: str
+) -> tuple[Result, ...]:
+    """Sub-totals, overhead and margin, the total, what a m² costs, and what a further class of nodes would."""
+    priced = {"cost": lines, "rates": rate_table, **tables}
+    groups = tuple(Result(group, currency, sum_if(lines, "group", group, "amount")) for group in GROUPS)
+    works = Result("Works", currency, total(priced, "cost.amount"), "works_cost")
+    overhead = Result("Overhead", currency, _named(works) * _share(rates["overhead"]), "overhead_cost")
+    margin = Result("Margin", currency, (_named(works) + _named(overhead)) * _share(rates["margin"]), "margin_cost")
+    grand = Result("Total", currency, _named(works) + _named(overhead) + _named(margin), "total_cost")
+    per_area = _named(grand) / total(tables, "panels.total_area_m2")
+    surcharge = (Given(1.0) + _share(rates["overhead"])) * (Given(1.0) + _share(rates["margin"]))
+    further = rates["node_set_up"].cell * surcharge
+    blanks = Blanks(rate_table, rate_table.columns[-1])
+    return (
+        *groups,
+        works,
+        overhead,
+        margin,
+        grand,
+        Result("Total per m² of panels", f"{currency}/m²", per_area, "cost_per_m2"),
+        Result("A further node class", currency, further, "cost_per_node_class"),
+        Result("Rates that are blank and count as nothing", "", blanks, "blank_rates"),
+    )
+
+
+def _named(result: Result) -> NamedCell:
+    return NamedCell(result.name, result.live)
+
+
+def _share(rate: Rate) -> Live:
+    return rate.cell / Given(100.0)
