@@ -73,6 +73,7 @@ def check(project: Path, changes: Sequence[str]) -> None:
 @click.argument("project", type=click.Path(path_type=Path))
 @click.option("--out", type=click.Path(path_type=Path), help="Folder to write; default outputs/<project>.")
 @click.option("--replace", is_flag=True, help="Replace an earlier delivery in that folder.")
+@click.option("--previous", type=click.Path(path_type=Path), help="Former delivery: unchanged parts keep its marks.")
 @click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
 @click.option("--effort", type=_EFFORT, default="normal", show_default=True, help="How long to search for nests.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default one per core. The result is the same.")
@@ -81,6 +82,7 @@ def build(
     project: Path,
     out: Path | None,
     replace: bool,
+    previous: Path | None,
     changes: Sequence[str],
     effort: Effort,
     jobs: int | None,
@@ -88,7 +90,7 @@ def build(
 ) -> None:
     """Build a project: cut sheets, schedules, solids, models, and the certificate that proves them."""
     with _Progress(quiet) as report:
-        built = isomould.build(project, out, changes, isomould.Run(replace, effort, jobs, report))
+        built = isomould.build(project, out, changes, isomould.Run(replace, effort, jobs, report, previous))
     passed = sum(check.status == "pass" for check in built.certificate.checks)
     _say(f"built {built.folder} ({passed} checks passed)")
     for note in built.design.notes:

@@ -1,7 +1,7 @@
 """The stages in the order of the data: project, design, solids, nests, tables, files, proof."""
 
 import importlib.metadata
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,11 +15,12 @@ from isomould.errors import CertificateFailed
 from isomould.nesting.search import Effort, Search
 from isomould.parts.solid import make_solids
 from isomould.project.load import LoadedProject
+from isomould.revision import keep_design_marks, read_former
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
-from isomould.writers.manifest import write_manifest
+from isomould.writers.manifest import MANIFEST, write_manifest
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
@@ -49,12 +50,16 @@ class Built:
 
 @dataclass(frozen=True)
 class Run:
-    """How a build is run: `jobs` processes (None: one per core) change the time, never the result."""
+    """How a build is run: `jobs` processes (None: one per core) change the time, never the result.
+
+    `previous` is a former delivery of the project: unchanged classes keep its marks.
+    """
 
     overwrite: bool = False
     effort: Effort = "normal"
     jobs: int | None = None
     report: Report = lambda stage: None
+    previous: Path | None = None
 
 
 def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
@@ -70,24 +75,26 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         If the folder cannot be written.
     """
     project, report = loaded.project, run.report
+    former = read_former(run.previous) if run.previous else None
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
         report("curves, surface, parts")
         design = make_design(project, loaded.folder)
         report(f"{len(design.kit.nodes.marks)} node solids")
         solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
+        design = keep_design_marks(design, solids, former) if former else design
         report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
         cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
-        delivery = Delivery(design, solids, cutting)
+        delivery = Delivery(design, solids, cutting, former)
         report("schedules, drawings, models")
         write_delivery(folder, delivery, spread)
         report("certificate")
-        certificate = _certify(folder, loaded, spread)
+        certificate = _certify(folder, read_inputs(loaded) | read_previous(run.previous), spread)
     return Built(target, design, delivery.tables, certificate)
 
 
-def _certify(folder: Path, loaded: LoadedProject, spread: Spread) -> Certificate:
+def _certify(folder: Path, inputs: Mapping[str, bytes], spread: Spread) -> Certificate:
     """Prove the candidate from its files, add the certificate, close the manifest."""
-    inputs, libraries = read_inputs(loaded), versions()
+    libraries = versions()
     write_manifest(folder, inputs, libraries)
     certificate = verify_folder(folder, final=False, spread=spread)
     if not certificate.passed:
@@ -110,6 +117,11 @@ def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
         curve.file: (loaded.folder / curve.file).read_bytes() for curve in curves if isinstance(curve, DxfSettings)
     }
     return {"project.toml": loaded.source, **drawings}
+
+
+def read_previous(folder: Path | None) -> dict[str, bytes]:
+    """Give the manifest of the former delivery, if there is one: its hash names that delivery."""
+    return {"previous/manifest.json": (folder / MANIFEST).read_bytes()} if folder else {}
 
 
 def versions() -> dict[str, str]:

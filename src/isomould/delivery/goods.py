@@ -6,6 +6,7 @@ from functools import cached_property
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Price, Pricing, make_cost
+from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
 from isomould.documents.stock_tables import bar_name, bar_table, sheet_table
 from isomould.documents.strips import strip_table
@@ -18,11 +19,12 @@ from isomould.project.schema import Project
 
 @dataclass(frozen=True, eq=False)
 class Delivery:
-    """Everything that is written: the design, its solids, its layouts."""
+    """Everything that is written: the design, its solids, its layouts; and the former delivery that it revises."""
 
     design: Design
     solids: tuple[Solid, ...]
     cutting: Cutting
+    former: Former | None = None
 
     @cached_property
     def schedules(self) -> tuple[Table, ...]:
@@ -65,4 +67,5 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     sheets = sheet_table(cutting.sheets, cutting.stock)
     bars = (bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
-    return (*tables, sheets, *bars, *strips)
+    revision = (revision_table(tables, delivery.former),) if delivery.former else ()
+    return (*tables, sheets, *bars, *strips, *revision)

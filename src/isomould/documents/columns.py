@@ -54,6 +54,7 @@ TABLES: dict[str, tuple[str, ...]] = {
             member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
             planarity_mm conical_deg circular_deg cone_spread_deg mismatch_mm torsion_deg deviation_mm
             horizontal_parallels reason""",
+        "revision": "mark part status quantity_before quantity replaces",
         "rates": "code description unit value",
         "cost": "code group description unit quantity waste_percent rate amount",
         "checks": "id what count worst where limit unit status reason",
@@ -73,8 +74,8 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
-    """quantity valence slots facets holes i j first_corner parts cuts pieces count parallels generatrices nodes_count
-    node_classes interior_node_classes members_count member_classes panels_count panel_classes
+    """quantity quantity_before valence slots facets holes i j first_corner parts cuts pieces count parallels
+    generatrices nodes_count node_classes interior_node_classes members_count member_classes panels_count panel_classes
     horizontal_parallels""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)

@@ -8,7 +8,7 @@ import numpy as np
 
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.tables import half_unit, number, numbers, pairs, texts
-from isomould.verify.rules import Floats, Measured, Rule, Unreadable, faults, worse, worst_of
+from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, Unreadable, faults, worse, worst_of
 
 PARTS = ("node", "member", "panel")
 _MESH = {"node": "node", "member": "edge", "panel": "face"}
@@ -82,6 +82,18 @@ def _index_faults(delivery: Delivery) -> list[str]:
         own = zip(locations.tolist(), indices.tolist(), strict=True)
         problems += [f"{k}: i, j = {claimed.get(k)}" for k, (i, j) in own if claimed.get(k) != (str(i), str(j))]
     return problems
+
+
+def revision(delivery: Delivery) -> Measured:
+    """What a revision lists is what the schedules hold: quantities of now, and nothing that was dropped."""
+    if "revision" not in delivery.tables:
+        raise NotApplicable("no former delivery was named")
+    table = delivery.table("revision")
+    now = {m: q for part in PARTS for m, q in pairs(delivery.table(f"{part}s"), "mark", "quantity").items()}
+    listed = pairs(table, "mark", "quantity")
+    problems = [f"{m}: {listed.get(m)} in the revision, {q} scheduled" for m, q in now.items() if listed.get(m) != q]
+    gone = [m for m, status in pairs(table, "mark", "status").items() if status in {"dropped", "retired"}]
+    return faults(table.rows, problems + [f"{mark} was dropped and is used again" for mark in gone if mark in now])
 
 
 def coordinates(delivery: Delivery) -> Measured:
@@ -169,6 +181,7 @@ def _line_about(lines: list[tuple[str, float]], name: str, column: str) -> tuple
 RULES = (
     Rule("V43", "marks, locations and quantities agree", 0, "faults", identity),
     Rule("V43b", "neighbours and indices agree with the model", 0, "faults", neighbours),
+    Rule("V43i", "revision lists what is scheduled; dropped marks stay away", 0, "faults", revision),
     Rule("V43c", "scheduled coordinates = model", half_unit("x_mm"), "mm", coordinates),
     Rule("V43d", "scheduled axes = model", 0.5005e-9, "", axes),
     Rule("V43e", "top, bottom and end cuts of members agree", 0, "mm", end_cuts),

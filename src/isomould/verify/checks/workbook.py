@@ -12,7 +12,7 @@ CALCULATED = {"Summary", "Checks", "Cost", "Rates"}
 """Sheets that may hold formulas and texts anywhere."""
 
 _NUMERIC = re.compile(
-    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity|valence|slots|facets|holes|parts|cuts|pieces|price"
+    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity|quantity_before|valence|slots|facets|holes|parts|cuts|pieces|price"
     r"|first_corner|value|worst|limit|count|rate|amount"
 )
 _LISTS = {"packers_mm"}
