@@ -1,10 +1,11 @@
 """isomould: from two curves to everything a shop needs to build a free-form gridshell."""
 
-from isomould.api import Checked, build, check, compare, draw, frames, nest, new, verify
+from isomould.api import Checked, build, check, compare, draw, frames, nest, new, schedule, verify
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
-from isomould.pipeline import Run
+from isomould.pipeline import Built, Run
 
 __all__ = [
+    "Built",
     "CertificateFailed",
     "Checked",
     "IsomouldError",
@@ -19,5 +20,6 @@ __all__ = [
     "frames",
     "nest",
     "new",
+    "schedule",
     "verify",
 ]

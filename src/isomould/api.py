@@ -23,7 +23,7 @@ from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.stop import Stop
-from isomould.pipeline import Built, Run, build_folder
+from isomould.pipeline import Built, Run, build_folder, schedule_folder
 from isomould.project.load import load_project
 from isomould.templates import copy_template
 from isomould.verify import Certificate, verify_folder
@@ -105,6 +105,18 @@ def build(
     loaded = load_project(Path(project), changes)
     target = Path(out) if out is not None else Path("outputs") / safe_name(loaded.project.project.name)
     return build_folder(loaded, target, run or Run())
+
+
+def schedule(
+    project: str | Path, out: str | Path | None = None, changes: Sequence[str] = (), run: Run | None = None
+) -> Built:
+    """Write workbook and tables without drawings and solids; the default is `outputs/<slug>-schedules`.
+
+    Parameters and errors are those of `build`.
+    """
+    loaded = load_project(Path(project), changes)
+    slug = f"{safe_name(loaded.project.project.name)}-schedules"
+    return schedule_folder(loaded, Path(out) if out is not None else Path("outputs") / slug, run or Run())
 
 
 def verify(folder: str | Path, jobs: int | None = None) -> Certificate:

@@ -3,6 +3,7 @@
 Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 interrupted.
 """
 
+import functools
 import os
 import signal
 import sys
@@ -69,28 +70,45 @@ def check(project: Path, changes: Sequence[str]) -> None:
         _warn(f"note: {note}")
 
 
+def _building(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the arguments of everything that builds a project into a folder."""
+    arguments = (
+        click.argument("project", type=click.Path(path_type=Path)),
+        click.option("--out", type=click.Path(path_type=Path), help="Folder to write; default below outputs/."),
+        click.option("--replace", is_flag=True, help="Replace an earlier delivery in that folder."),
+        click.option(
+            "--previous", type=click.Path(path_type=Path), help="Former delivery: unchanged parts keep its marks."
+        ),
+        click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".'),
+        click.option("--effort", type=_EFFORT, default="normal", show_default=True, help="How long to nest."),
+        click.option("--jobs", type=click.IntRange(min=1), help="Processes; default one per core, result the same."),
+        click.option("--quiet", is_flag=True, help="No progress."),
+    )
+    return functools.reduce(lambda made, add: add(made), reversed(arguments), command)
+
+
 @cli.command()
-@click.argument("project", type=click.Path(path_type=Path))
-@click.option("--out", type=click.Path(path_type=Path), help="Folder to write; default outputs/<project>.")
-@click.option("--replace", is_flag=True, help="Replace an earlier delivery in that folder.")
-@click.option("--previous", type=click.Path(path_type=Path), help="Former delivery: unchanged parts keep its marks.")
-@click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
-@click.option("--effort", type=_EFFORT, default="normal", show_default=True, help="How long to search for nests.")
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; default one per core. The result is the same.")
-@click.option("--quiet", is_flag=True, help="No progress.")
-def build(
-    project: Path,
-    out: Path | None,
-    replace: bool,
-    previous: Path | None,
-    changes: Sequence[str],
-    effort: Effort,
-    jobs: int | None,
-    quiet: bool,
-) -> None:
+@_building
+def build(project: Path, out: Path | None, changes: Sequence[str], quiet: bool, **run: Any) -> None:
     """Build a project: cut sheets, schedules, solids, models, and the certificate that proves them."""
     with _Progress(quiet) as report:
-        built = isomould.build(project, out, changes, isomould.Run(replace, effort, jobs, report, previous))
+        _built(isomould.build(project, out, changes, _run_of(report, **run)))
+
+
+@cli.command()
+@_building
+def schedule(project: Path, out: Path | None, changes: Sequence[str], quiet: bool, **run: Any) -> None:
+    """Write the workbook and the tables of a project, without drawings and solids."""
+    with _Progress(quiet) as report:
+        _built(isomould.schedule(project, out, changes, _run_of(report, **run)))
+
+
+def _run_of(report: Callable[[str], None], replace: bool, **run: Any) -> isomould.Run:
+    return isomould.Run(overwrite=replace, report=report, **run)
+
+
+def _built(built: isomould.Built) -> None:
+    """Say what was published, and what should be known about it."""
     passed = sum(check.status == "pass" for check in built.certificate.checks)
     _say(f"built {built.folder} ({passed} checks passed)")
     for note in built.design.notes:

@@ -1,7 +1,7 @@
 """The stages in the order of the data: project, design, solids, nests, tables, files, proof."""
 
 import importlib.metadata
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,6 +9,8 @@ from isomould.curves.settings import DxfSettings
 from isomould.cutting import nest_kit
 from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
+from isomould.delivery.model import write_record
+from isomould.delivery.schedules import write_schedules
 from isomould.design import Design, make_design
 from isomould.documents.table import Table
 from isomould.errors import CertificateFailed
@@ -20,7 +22,7 @@ from isomould.verify import Certificate, verify_folder
 from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
-from isomould.writers.manifest import MANIFEST, write_manifest
+from isomould.writers.manifest import MANIFEST, Scope, write_manifest
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
@@ -74,28 +76,50 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
     OutputFault
         If the folder cannot be written.
     """
+    with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
+        delivery = _compute(loaded, run, spread)
+        run.report("schedules, drawings, models")
+        write_delivery(folder, delivery, spread)
+        certificate = _certify(folder, loaded, run, spread)
+    return Built(target, delivery.design, delivery.tables, certificate)
+
+
+def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
+    """Publish workbook and tables without drawings and solids, proved as far as they go.
+
+    Raises
+    ------
+    Refused, CertificateFailed, OutputFault
+        As `build_folder`.
+    """
+    with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
+        delivery = _compute(loaded, run, spread)
+        run.report("schedules")
+        write_record(folder / "model", delivery)
+        write_schedules(folder, delivery)
+        certificate = _certify(folder, loaded, run, spread, "schedules")
+    return Built(target, delivery.design, delivery.tables, certificate)
+
+
+def _compute(loaded: LoadedProject, run: Run, spread: Spread) -> Delivery:
+    """Compute everything that is to be written."""
     project, report = loaded.project, run.report
     former = read_former(run.previous) if run.previous else None
-    with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
-        report("curves, surface, parts")
-        design = make_design(project, loaded.folder)
-        report(f"{len(design.kit.nodes.marks)} node solids")
-        solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
-        design = keep_design_marks(design, solids, former) if former else design
-        report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
-        cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
-        delivery = Delivery(design, solids, cutting, former)
-        report("schedules, drawings, models")
-        write_delivery(folder, delivery, spread)
-        report("certificate")
-        certificate = _certify(folder, read_inputs(loaded) | read_previous(run.previous), spread)
-    return Built(target, design, delivery.tables, certificate)
+    report("curves, surface, parts")
+    design = make_design(project, loaded.folder)
+    report(f"{len(design.kit.nodes.marks)} node solids")
+    solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
+    design = keep_design_marks(design, solids, former) if former else design
+    report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
+    cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
+    return Delivery(design, solids, cutting, former)
 
 
-def _certify(folder: Path, inputs: Mapping[str, bytes], spread: Spread) -> Certificate:
+def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scope: Scope = "delivery") -> Certificate:
     """Prove the candidate from its files, add the certificate, close the manifest."""
-    libraries = versions()
-    write_manifest(folder, inputs, libraries)
+    run.report("certificate")
+    inputs, libraries = read_inputs(loaded) | read_previous(run.previous), versions()
+    write_manifest(folder, inputs, libraries, scope)
     certificate = verify_folder(folder, final=False, spread=spread)
     if not certificate.passed:
         listed = "\n".join(
@@ -106,7 +130,7 @@ def _certify(folder: Path, inputs: Mapping[str, bytes], spread: Spread) -> Certi
         raise CertificateFailed(message)
     write_bytes(folder / "certificate.json", certificate.to_json().encode())
     (folder / "manifest.json").unlink()
-    write_manifest(folder, inputs, libraries)
+    write_manifest(folder, inputs, libraries, scope)
     return certificate
 
 

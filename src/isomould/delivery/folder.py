@@ -6,7 +6,7 @@ from isomould.delivery.goods import Delivery
 from isomould.delivery.machine import write_machine_files, write_setting_out, write_strips
 from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
-from isomould.delivery.schedules import write_schedules
+from isomould.delivery.schedules import write_bars, write_schedules
 from isomould.workers import Spread
 
 
@@ -16,5 +16,6 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     write_machine_files(folder, delivery, spread)
     write_nodes(folder / "nodes", delivery)
     write_schedules(folder, delivery)
+    write_bars(folder / "bars" / "bars.csv", delivery)
     write_strips(folder / "strips", delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

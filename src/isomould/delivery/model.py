@@ -22,14 +22,20 @@ from isomould.writers.model import Instance, write_glb, write_npz, write_obj
 
 def write_model(folder: Path, delivery: Delivery) -> None:
     """Write mesh, design record and placed solids."""
-    kit, record = delivery.design.kit, describe_design(delivery.design, delivery.cutting.stock)
-    write_npz(folder / "geometry.npz", _geometry(delivery))
-    write_bytes(folder / "design.json", (json.dumps(record, indent=1, allow_nan=False) + "\n").encode())
+    kit = delivery.design.kit
+    write_record(folder, delivery)
     groups = [f"{mark}_{where}" for mark, where in zip(_marks(kit.panels), kit.panels.locations, strict=True)]
     write_obj(folder / "mesh.obj", kit.mesh.nodes, kit.mesh.faces, kit.mesh.face_offsets, groups)
     write_glb(folder / "model.glb", _shapes(delivery), _instances(delivery))
     if delivery.design.layers is not None:
         _write_layers(folder / "double-layer.obj", delivery.design.layers)
+
+
+def write_record(folder: Path, delivery: Delivery) -> None:
+    """Write the mesh as arrays, and what was asked and decided."""
+    record = describe_design(delivery.design, delivery.cutting.stock)
+    write_npz(folder / "geometry.npz", _geometry(delivery))
+    write_bytes(folder / "design.json", (json.dumps(record, indent=1, allow_nan=False) + "\n").encode())
 
 
 def _write_layers(path: Path, layers: DoubleLayer) -> None:

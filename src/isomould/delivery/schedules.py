@@ -10,14 +10,19 @@ from isomould.writers.xlsx import Words, write_workbook
 
 
 def write_schedules(folder: Path, delivery: Delivery) -> None:
-    """Write every table as CSV, the bars once more beside the saw, and the workbook."""
+    """Write every table as CSV, and the workbook."""
     design, cutting, tables = delivery.design, delivery.cutting, delivery.tables
     for table in tables:
         write_csv(folder / "tables" / f"{table.name}.csv", table)
-    if cutting.bars:
-        write_csv(folder / "bars" / "bars.csv", next(table for table in tables if table.name == "bars"))
     facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
     summary = make_summary(facts, tables)
     checks = build_checks(design.kit, delivery.solids, cutting.sheets)
     words = Words(design.project.project, design.notes, delivery.cost.results)
     write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), words)
+
+
+def write_bars(path: Path, delivery: Delivery) -> None:
+    """Write the bars once more, beside the saw."""
+    for table in delivery.tables:
+        if table.name == "bars":
+            write_csv(path, table)

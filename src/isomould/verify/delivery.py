@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from isomould.errors import OutputFault
 from isomould.verify.read.design import Design, read_design
 from isomould.verify.read.dxf import Drawing, read_dxf, with_layers
 from isomould.verify.read.layout import Layout, read_layout
@@ -41,6 +42,14 @@ class Delivery:
     def manifest(self) -> Json:
         """The content of `manifest.json`."""
         return read_json(self.folder / "manifest.json")
+
+    @cached_property
+    def scope(self) -> str:
+        """What the manifest says that the folder holds; everything, if it cannot say."""
+        try:
+            return str(self.manifest["scope"])
+        except (OutputFault, KeyError, TypeError):
+            return "delivery"
 
     @cached_property
     def layout(self) -> Layout:

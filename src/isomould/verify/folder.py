@@ -1,7 +1,9 @@
 """Prove a delivered folder from its files alone."""
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
+from types import ModuleType
 
 from isomould.errors import OutputFault
 from isomould.verify.certificate import Certificate
@@ -41,16 +43,27 @@ _GROUPS = (
 )
 
 
+_SCHEDULED = (panels, nodes, polygons, topology, workbook, totals, manifest)
+"""What can be proved of schedules alone."""
+
+
 def _order(rule: Rule) -> tuple[int, str]:
     return int(re.sub(r"\D", "", rule.id)), rule.id
 
 
-RULES: tuple[Rule, ...] = tuple(sorted((rule for group in _GROUPS for rule in group.RULES), key=_order))
+def _rules(groups: Iterable[ModuleType]) -> tuple[Rule, ...]:
+    return tuple(sorted((rule for group in groups for rule in group.RULES), key=_order))
+
+
+RULES = _rules(_GROUPS)
 """Every check there is, in the order of the certificate."""
+
+SCHEDULE_RULES = _rules(_SCHEDULED)
+"""The checks of a folder that holds schedules only."""
 
 
 def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_one) -> Certificate:
-    """Run every check on a folder (proof.md).
+    """Run every check on a folder (proof.md), or those of schedules on one that holds nothing else.
 
     Parameters
     ----------
@@ -70,4 +83,5 @@ def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_o
         message = f"{folder}: no such folder. Give the folder that a build delivered."
         raise OutputFault(message)
     delivery = Delivery(folder, final, spread)
-    return Certificate(tuple(judge(rule, delivery) for rule in RULES))
+    rules = SCHEDULE_RULES if delivery.scope == "schedules" else RULES
+    return Certificate(tuple(judge(rule, delivery) for rule in rules))

@@ -4,6 +4,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Literal
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -32,12 +33,17 @@ class InputEntry:
     size: int
 
 
+Scope = Literal["delivery", "schedules"]
+"""What a folder holds: everything, or what `isomould schedule` writes."""
+
+
 @dataclass(frozen=True)
 class Manifest:
     """The schema of `manifest.json`."""
 
     schema: int
     tool: dict[str, str]
+    scope: Scope
     inputs: list[InputEntry]
     libraries: dict[str, str]
     files: list[FileEntry]
@@ -46,7 +52,9 @@ class Manifest:
 _SCHEMA = TypeAdapter(Manifest)
 
 
-def write_manifest(folder: Path, inputs: Mapping[str, bytes], versions: Mapping[str, str]) -> None:
+def write_manifest(
+    folder: Path, inputs: Mapping[str, bytes], versions: Mapping[str, str], scope: Scope = "delivery"
+) -> None:
     """Write `manifest.json` over all files of a folder.
 
     Parameters
@@ -56,6 +64,7 @@ def write_manifest(folder: Path, inputs: Mapping[str, bytes], versions: Mapping[
         The project file and the files it names, as they were read.
     versions : mapping of package name to version
         "isomould" is the tool, the others are libraries.
+    scope : "delivery" or "schedules"
 
     Raises
     ------
@@ -66,6 +75,7 @@ def write_manifest(folder: Path, inputs: Mapping[str, bytes], versions: Mapping[
     manifest = Manifest(
         schema=1,
         tool={"name": TOOL, "version": versions[TOOL]},
+        scope=scope,
         inputs=[_input_entry(name, inputs[name]) for name in sorted(inputs)],
         libraries=libraries,
         files=_entries(folder),

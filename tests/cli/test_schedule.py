@@ -1,0 +1,48 @@
+"""Schedules alone: the same tables as a build gives, proved as far as they go."""
+
+import json
+import shutil
+
+import pytest
+
+import isomould
+from museum import SMALL, write_project
+
+
+@pytest.fixture(scope="module")
+def schedules(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("schedules")
+    project = write_project(folder / "small.toml", SMALL)
+    return isomould.schedule(project, folder / "out", run=isomould.Run(effort="quick", jobs=1)).folder
+
+
+def test_tables_are_those_of_a_build(schedules, built_folder):
+    ours = {path.name: path.read_bytes() for path in (schedules / "tables").iterdir()}
+    assert ours == {path.name: path.read_bytes() for path in (built_folder / "tables").iterdir()}
+
+
+def test_nothing_but_schedules_is_written(schedules):
+    assert {path.name for path in schedules.iterdir()} == {
+        "certificate.json",
+        "manifest.json",
+        "model",
+        "schedules.xlsx",
+        "tables",
+    }
+
+
+def test_they_are_proved_and_prove_again(schedules):
+    certificate = isomould.verify(schedules, jobs=1)
+    assert certificate.passed
+    assert {"V1", "V41", "V41b", "V43", "V44", "V50"} <= {c.id for c in certificate.checks if c.status == "pass"}
+
+
+def test_a_delivery_does_not_pass_for_schedules(built_folder, tmp_path):
+    """Who claims less to be proved less is found by the files that he cannot explain."""
+
+    copied = tmp_path / "claimed"
+    shutil.copytree(built_folder, copied)
+    manifest = json.loads((copied / "manifest.json").read_text())
+    (copied / "manifest.json").write_text(json.dumps(manifest | {"scope": "schedules"}))
+    failures = {check.id: check.reason for check in isomould.verify(copied, jobs=1).failures}
+    assert "is no schedule" in failures["V50"]
