@@ -8,12 +8,14 @@ from typing import Literal
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.design import Design, make_design, requests_of
+from isomould.design import Design, requests_of
 from isomould.documents.graph import curvature_picture
 from isomould.documents.overview import Fact, kit_facts
 from isomould.documents.picture import Picture
+from isomould.documents.table import Table
 from isomould.documents.views import SpaceView, developed_picture, space_picture
 from isomould.errors import Note, Refused
+from isomould.family import kit_table, make_designs
 from isomould.form.assemble import RailInSpace
 from isomould.form.spatial import SpatialPolygon
 from isomould.form.survey import Division, survey
@@ -25,6 +27,7 @@ from isomould.nesting.search import Effort, Search
 from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder, schedule_folder
 from isomould.project.load import load_project
+from isomould.project.schema import MAIN
 from isomould.templates import copy_template
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import workers
@@ -41,13 +44,15 @@ class Checked:
     """A design that was computed without writing files, its key figures, and what should be known about it.
 
     `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
-    lies off the curve.
+    lies off the curve. `kit` proves that the shapes of a project are made of one kit of nodes: a row per class, its
+    quantity in every shape, and whether all have it; None for a project of one shape.
     """
 
     design: Design
     facts: tuple[Fact, ...]
     divisions: tuple[Division, ...]
     notes: tuple[Note, ...]
+    kit: Table | None = None
 
 
 def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
@@ -75,10 +80,12 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
         Overrides such as `'rail.curve.rise="8 m"'`.
     """
     loaded = load_project(Path(project), changes)
-    design = make_design(loaded.project, loaded.folder)
+    designs = make_designs(loaded)
+    design = designs[MAIN]
     curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
     divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
-    return Checked(design, kit_facts(design.kit), divisions, design.notes)
+    kit = kit_table(designs) if loaded.shapes else None
+    return Checked(design, kit_facts(design.kit), divisions, design.notes, kit)
 
 
 def build(
@@ -165,7 +172,13 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
     return compared
 
 
-def draw(project: str | Path, out: str | Path, view: View = "axonometry", changes: Sequence[str] = ()) -> Picture:
+def draw(
+    project: str | Path,
+    out: str | Path,
+    view: View = "axonometry",
+    changes: Sequence[str] = (),
+    shape: str = MAIN,
+) -> Picture:
     """Draw a design as SVG.
 
     Parameters
@@ -179,10 +192,16 @@ def draw(project: str | Path, out: str | Path, view: View = "axonometry", change
         the rail, with its points of tangency).
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
+    shape
+        Which of the project's shapes, by the name of its folder.
     """
     if Path(out).suffix.lower() != ".svg":
         raise Refused("E-DRAW-FILE", "--out", str(out), "a file that ends in .svg", "Write --out picture.svg.")
-    picture = _picture(check(project, changes).design, view)
+    designs = make_designs(load_project(Path(project), changes))
+    if shape not in designs:
+        limit = f"one of {', '.join(designs)}"
+        raise Refused("E-DRAW-SHAPE", "--shape", repr(shape), limit, "Name a shape of the project.")
+    picture = _picture(designs[shape], view)
     replace_file(Path(out), svg_text(picture).encode())
     return picture
 

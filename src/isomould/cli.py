@@ -66,6 +66,8 @@ def check(project: Path, changes: Sequence[str]) -> None:
         table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
     _console().print(table)
     _console().print(_division_table(checked.divisions))
+    if checked.kit is not None:
+        _console().print(_kit(checked.kit))
     for note in checked.notes:
         _warn(f"note: {note}")
 
@@ -166,9 +168,10 @@ def compare(project: Path, changes: Sequence[str], out: Path | None) -> None:
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Picture (SVG) to write.")
 @click.option("--view", type=_VIEW, default="axonometry", show_default=True)
 @click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
-def draw(project: Path, out: Path, view: View, changes: Sequence[str]) -> None:
+@click.option("--shape", default="main", show_default=True, help="Which of the project's shapes.")
+def draw(project: Path, out: Path, view: View, changes: Sequence[str], shape: str) -> None:
     """Draw the design; no other files are written."""
-    isomould.draw(project, out, view, changes)
+    isomould.draw(project, out, view, changes, shape)
     click.echo(f"wrote {out}")
 
 
@@ -178,6 +181,16 @@ def _families(families: tables.Table) -> Table:
     table = Table("", *(str(name) for name in columns[0][1]), box=None)
     for header, cells in columns[1:-1]:
         table.add_row(header, *("–" if cell is None else _short(cell) for cell in cells))
+    return table
+
+
+def _kit(kit: tables.Table) -> Table:
+    """One row per node class, and a line that says how many of them all shapes share."""
+    shared, all_ = int(kit.frame["shared"].sum()), len(kit.frame)
+    caption = f"{shared} of {all_} node classes are in every shape: one kit of nodes"
+    table = Table(*(column.header for column in kit.columns), box=None, caption=caption, caption_justify="left")
+    for cells in zip(*(tables.cells(kit, column) for column in kit.columns), strict=True):
+        table.add_row(*({True: "yes", False: "no"}.get(c, "") if isinstance(c, bool) else str(c) for c in cells))
     return table
 
 

@@ -11,12 +11,14 @@ from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
 from isomould.delivery.model import write_record
 from isomould.delivery.schedules import write_schedules
-from isomould.design import Design, make_design
+from isomould.design import Design
 from isomould.documents.table import Table
-from isomould.errors import CertificateFailed
+from isomould.errors import CertificateFailed, Refused
+from isomould.family import kit_table, make_designs
 from isomould.nesting.search import Effort, Search
 from isomould.parts.solid import make_solids
 from isomould.project.load import LoadedProject
+from isomould.project.schema import MAIN
 from isomould.revision import keep_design_marks, read_former
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import Spread, workers
@@ -77,7 +79,12 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         If the folder cannot be written.
     """
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
-        delivery = _compute(loaded, run, spread)
+        designs, kit = _design(loaded, run)
+        for name in list(designs)[1:]:
+            shape = _compute(designs[name], None, run, spread)
+            write_delivery(folder / "shapes" / name, shape, spread)
+            _certify(folder / "shapes" / name, loaded, run, spread)
+        delivery = _compute(designs[MAIN], kit, run, spread)
         run.report("schedules, drawings, models")
         write_delivery(folder, delivery, spread)
         certificate = _certify(folder, loaded, run, spread)
@@ -85,7 +92,7 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
 
 
 def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
-    """Publish workbook and tables without drawings and solids, proved as far as they go.
+    """Publish workbook and tables without drawings and solids, proved as far as they go; of several shapes the first's.
 
     Raises
     ------
@@ -93,7 +100,8 @@ def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         As `build_folder`.
     """
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
-        delivery = _compute(loaded, run, spread)
+        designs, kit = _design(loaded, run)
+        delivery = _compute(designs[MAIN], kit, run, spread)
         run.report("schedules")
         write_record(folder / "model", delivery)
         write_schedules(folder, delivery)
@@ -101,18 +109,27 @@ def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
     return Built(target, delivery.design, delivery.tables, certificate)
 
 
-def _compute(loaded: LoadedProject, run: Run, spread: Spread) -> Delivery:
-    """Compute everything that is to be written."""
-    project, report = loaded.project, run.report
+def _design(loaded: LoadedProject, run: Run) -> tuple[dict[str, Design], Table | None]:
+    """Compute all shapes, and the table of their kit if there are several."""
+    if run.previous and loaded.shapes:
+        found, limit = "a project of several shapes", "a project of one shape"
+        way_out = "Build without --previous: the marks of the kit belong to all shapes."
+        raise Refused("E-SHAPE-PREVIOUS", "--previous", found, limit, way_out)
+    run.report("curves, surface, parts")
+    designs = make_designs(loaded)
+    return designs, kit_table(designs) if loaded.shapes else None
+
+
+def _compute(design: Design, kit: Table | None, run: Run, spread: Spread) -> Delivery:
+    """Compute everything that is to be written of one shape."""
+    project, report = design.project, run.report
     former = read_former(run.previous) if run.previous else None
-    report("curves, surface, parts")
-    design = make_design(project, loaded.folder)
     report(f"{len(design.kit.nodes.marks)} node solids")
     solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
     design = keep_design_marks(design, solids, former) if former else design
     report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
     cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
-    return Delivery(design, solids, cutting, former)
+    return Delivery(design, solids, cutting, former, kit)
 
 
 def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scope: Scope = "delivery") -> Certificate:
@@ -136,7 +153,8 @@ def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scop
 
 def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
     """Give the project file and the drawings that it names, by name."""
-    curves = (loaded.project.rail.curve, loaded.project.generatrix.curve)
+    projects = (loaded.project, *(project for _, project in loaded.shapes))
+    curves = [curve for project in projects for curve in (project.rail.curve, project.generatrix.curve)]
     drawings = {
         curve.file: (loaded.folder / curve.file).read_bytes() for curve in curves if isinstance(curve, DxfSettings)
     }

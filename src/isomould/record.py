@@ -42,6 +42,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         },
         "layers": dict(project.deliver.layers),
         "counts": _counts(design),
+        "shapes": [shape.slug for shape in project.shapes],
     }
 
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+from isomould.comparison import compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Price, Pricing, make_cost
@@ -19,12 +20,16 @@ from isomould.project.schema import Project
 
 @dataclass(frozen=True, eq=False)
 class Delivery:
-    """Everything that is written: the design, its solids, its layouts; and the former delivery that it revises."""
+    """Everything that is written: the design, its solids, its layouts.
+
+    `former` is the delivery that it revises, `kit` the nodes that other shapes share with it.
+    """
 
     design: Design
     solids: tuple[Solid, ...]
     cutting: Cutting
     former: Former | None = None
+    kit: Table | None = None
 
     @cached_property
     def schedules(self) -> tuple[Table, ...]:
@@ -68,4 +73,6 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     bars = (bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
     revision = (revision_table(tables, delivery.former),) if delivery.former else ()
-    return (*tables, sheets, *bars, *strips, *revision)
+    kit = (delivery.kit,) if delivery.kit else ()
+    families = (families_table(compare_families(design)),) if design.project.deliver.compare else ()
+    return (*tables, sheets, *bars, *strips, *revision, *kit, *families)

@@ -24,8 +24,8 @@ class Column:
     total: bool
 
 
-ARMS = "ARMS"
-"""Stands for the columns of arms 1 to k of the nodes."""
+ARMS, SHAPES = "ARMS", "SHAPES"
+"""Stand for the columns of arms 1 to k of the nodes, and for the quantities in the shapes of a project."""
 
 TABLES: dict[str, tuple[str, ...]] = {
     name: tuple(text.split())
@@ -57,6 +57,7 @@ TABLES: dict[str, tuple[str, ...]] = {
         "revision": "mark part status quantity_before quantity replaces",
         "rates": "code description unit value",
         "cost": "code group description unit quantity waste_percent rate amount",
+        "kit": f"mark kind quantity {SHAPES} shared",
         "checks": "id what count worst where limit unit status reason",
     }.items()
 }
@@ -80,7 +81,7 @@ _INTEGERS = frozenset(
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
 """In the cost a quantity is whatever is paid for, not a number of pieces."""
-_YES_NO = frozenset(("turned_over",))
+_YES_NO = frozenset(("turned_over", "shared"))
 
 _TOTALS: dict[str, frozenset[str]] = {
     "nodes": frozenset(("quantity", "total_mass_kg")),
@@ -89,13 +90,16 @@ _TOTALS: dict[str, frozenset[str]] = {
     "sheets": frozenset(("parts", "part_area_m2", "cut_length_mm", "cuts", "price")),
     "bars": frozenset(("pieces", "used_mm", "offcut_mm", "price")),
     "cost": frozenset(("amount",)),
+    "kit": frozenset(("quantity",)),
 }
 
-_PER_PIECE = "total_"
+_PER_PIECE, _PER_SHAPE = "total_", "quantity_"
 
 
-def columns(table: str, arms: int = 0) -> tuple[Column, ...]:
+def columns(table: str, arms: int = 0, shapes: tuple[str, ...] = ()) -> tuple[Column, ...]:
     """Give the columns of a table in order; `arms` is the largest valence of the nodes.
+
+    `shapes` are the columns of the shapes of a project.
 
     Examples
     --------
@@ -103,7 +107,7 @@ def columns(table: str, arms: int = 0) -> tuple[Column, ...]:
     ['Bar', 'Stock', 'Pieces', 'Used (mm)', 'Offcut (mm)', 'Price']
     """
     totals = _TOTALS.get(table, frozenset())
-    found = (_column(name, name in totals) for name in _names(table, arms))
+    found = (_column(name, name in totals) for name in _names(table, arms, shapes))
     return tuple(_TAKEN_OFF if table == "cost" and column.name == "quantity" else column for column in found)
 
 
@@ -118,7 +122,7 @@ def unit(name: str) -> str:
     >>> unit("area_m2"), unit("mark")
     ('m²', '')
     """
-    return UNITS.get(_suffix(name), "")
+    return "" if is_of_shape(name) else UNITS.get(_suffix(name), "")
 
 
 def per_piece(name: str) -> str | None:
@@ -130,14 +134,23 @@ def per_piece(name: str) -> str | None:
     return name.removeprefix(_PER_PIECE) if name.startswith(_PER_PIECE) else None
 
 
+def is_of_shape(name: str) -> bool:
+    """Tell whether a column holds the quantities in one shape of a project; its name may end like a unit.
+
+    >>> is_of_shape("quantity_main"), is_of_shape("quantity")
+    (True, False)
+    """
+    return name.startswith(_PER_SHAPE)
+
+
 def arm_columns(arm: int) -> tuple[str, ...]:
     """Name the columns of one arm of a node, counted from 1."""
     return f"azimuth_{arm}_deg", f"elevation_{arm}_deg", f"family_{arm}", f"section_{arm}"
 
 
-def _names(table: str, arms: int) -> tuple[str, ...]:
-    expanded = tuple(name for arm in range(1, arms + 1) for name in arm_columns(arm))
-    return tuple(name for word in TABLES[table] for name in (expanded if word == ARMS else (word,)))
+def _names(table: str, arms: int, shapes: tuple[str, ...]) -> tuple[str, ...]:
+    expanded = {ARMS: tuple(name for arm in range(1, arms + 1) for name in arm_columns(arm)), SHAPES: shapes}
+    return tuple(name for word in TABLES[table] for name in expanded.get(word, (word,)))
 
 
 def _column(name: str, total: bool) -> Column:
@@ -157,7 +170,7 @@ def _header(name: str) -> str:
 
 
 def _kind(name: str) -> Kind:
-    if name in _INTEGERS:
+    if name in _INTEGERS or is_of_shape(name):
         return "integer"
     if name in _YES_NO:
         return "yes_no"

@@ -9,7 +9,7 @@ import pandas as pd
 from pandas.api.extensions import ExtensionArray
 
 from isomould.arrays import Floats
-from isomould.documents.columns import Column, columns, per_piece, title
+from isomould.documents.columns import Column, columns, is_of_shape, per_piece, title
 from isomould.documents.live import Live
 from isomould.documents.numbers import round_to
 from isomould.errors import Refused
@@ -80,7 +80,7 @@ def make_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:
     >>> table.title, cells(table, table.columns[3]), cells(table, table.columns[5])
     ('Bars', [5990.0], [None])
     """
-    specs = columns(name, arms=_largest_arm(data))
+    specs = columns(name, _largest_arm(data), tuple(filter(is_of_shape, data)))
     given = {column.name: list(data.get(column.name, ())) for column in specs if not per_piece(column.name)}
     _check_names(name, given.keys(), data.keys())
     _check_lengths(name, given)

@@ -1,7 +1,6 @@
 """Parallel families: whether several designs are made of the same nodes (paper §3.5)."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from isomould.form.mesh import Mesh, NodeKind
 from isomould.parts.arms import find_arms
 from isomould.parts.nodes import classify_nodes
 from isomould.parts.settings import CongruenceSettings
+from isomould.parts.sharing import side_by_side
 
 
 def shared_node_classes(meshes: Sequence[Mesh], tolerance: CongruenceSettings) -> tuple[Ints, Ints]:
@@ -22,7 +22,7 @@ def shared_node_classes(meshes: Sequence[Mesh], tolerance: CongruenceSettings) -
     kind : (k,) int
         A `NodeKind` per class.
     """
-    union = _union(meshes)
+    union = side_by_side(meshes)
     parts = classify_nodes(union, find_arms(union), tolerance)
     design = np.repeat(np.arange(len(meshes)), [len(mesh.nodes) for mesh in meshes])
     counts = np.zeros((len(parts.marks), len(meshes)), dtype=np.int64)
@@ -34,24 +34,3 @@ def is_one_kit(meshes: Sequence[Mesh], tolerance: CongruenceSettings, *, interio
     """Whether all meshes use exactly the same node classes; with `interior`, boundary and flat nodes apart."""
     counts, kind = shared_node_classes(meshes, tolerance)
     return bool((counts[(kind == NodeKind.INTERIOR) | (not interior)] > 0).all())
-
-
-def _union(meshes: Sequence[Mesh]) -> Mesh:
-    """Put meshes side by side in one; the numbers (i, j) keep their own count in each."""
-    nodes = np.cumsum([0, *(len(mesh.nodes) for mesh in meshes)])
-    corners = np.cumsum([0, *(len(mesh.faces) for mesh in meshes)])
-    shifted = [
-        replace(
-            mesh,
-            edges=mesh.edges + nodes[k],
-            faces=mesh.faces + nodes[k],
-            face_offsets=mesh.face_offsets[:-1] + corners[k],
-        )
-        for k, mesh in enumerate(meshes)
-    ]
-    arrays = {
-        name: np.concatenate([vars(mesh)[name] for mesh in shifted])
-        for name, value in vars(shifted[0]).items()
-        if isinstance(value, np.ndarray)
-    }
-    return replace(shifted[0], **{**arrays, "face_offsets": np.append(arrays["face_offsets"], corners[-1])})

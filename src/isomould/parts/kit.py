@@ -57,8 +57,10 @@ class Kit:
         return (Note("W-NODE-MISMATCH", "surface.kind", text),) if self.mismatch[worst] > 1e-6 else ()
 
 
-def make_kit(mesh: Mesh, settings: KitSettings) -> Kit:
+def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) -> Kit:
     """Sort nodes, members and panels into classes and size one part of each.
+
+    `nodes` are those of the mesh if they were sorted already, together with other meshes.
 
     Raises
     ------
@@ -66,7 +68,7 @@ def make_kit(mesh: Mesh, settings: KitSettings) -> Kit:
         If a part cannot be made as asked.
     """
     arms = find_arms(mesh)
-    nodes = classify_nodes(mesh, arms, settings.tolerance)
+    nodes = nodes or classify_nodes(mesh, arms, settings.tolerance)
     torsion = node_torsion(mesh, arms)
     refuse_torsion(torsion, nodes.locations)
     section = settings.members.section

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from isomould.errors import OutputFault, Refused
-from isomould.project.schema import Project
+from isomould.project.schema import Project, ShapeTable
 from isomould.settings import Settings
 
 _LARGEST_FILE = 1_000_000
@@ -19,11 +19,15 @@ _LARGEST_FILE = 1_000_000
 
 @dataclass(frozen=True)
 class LoadedProject:
-    """A validated project, the folder that its file references start from, and its source text."""
+    """A validated project, the folder that its file references start from, and its source text.
+
+    `shapes` are its other shapes by the names of their folders, each a whole project.
+    """
 
     project: Project
     folder: Path
     source: bytes
+    shapes: tuple[tuple[str, Project], ...] = ()
 
 
 def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
@@ -47,7 +51,17 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
     data = _parse(source, path)
     for change in overrides:
         _override(data, change)
-    return LoadedProject(validate(data, path.name), path.resolve().parent, source)
+    project = validate(data, path.name)
+    shapes = [(shape.slug, validate(_reshaped(data, shape), f"{path.name}, {shape.name}")) for shape in project.shapes]
+    return LoadedProject(project, path.resolve().parent, source, tuple(shapes))
+
+
+def _reshaped(data: Mapping[str, Any], shape: ShapeTable) -> dict[str, Any]:
+    """Give the tables of a shape: those of the project with what the shape names in place."""
+    name = f"{data['project']['name']}, {shape.name}"
+    changed = {"project": {"name": name}, "rail": shape.rail, "generatrix": shape.generatrix}
+    own = {table: {**data[table], **keys} for table, keys in changed.items()}
+    return {key: value for key, value in {**data, **own}.items() if key != "shapes"}
 
 
 def validate(data: Mapping[str, Any], name: str) -> Project:

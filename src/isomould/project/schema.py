@@ -1,13 +1,13 @@
 """The project file: the settings of every stage, composed (deliverables, Project file)."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from isomould.curves.plane import PlaneSettings
 from isomould.curves.settings import CurveSettings
 from isomould.documents.cost_settings import CostSettings
-from isomould.documents.info import ProjectInfo
+from isomould.documents.info import ProjectInfo, Text
 from isomould.form.rail import Ends
 from isomould.form.settings import (
     GeneratrixDivide,
@@ -20,6 +20,7 @@ from isomould.nesting.settings import StockSettings
 from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings
 from isomould.settings import Settings
 from isomould.units import Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
+from isomould.writers.names import safe_name
 from isomould.writers.settings import DeliverSettings
 
 
@@ -80,6 +81,34 @@ class LimitTable(Settings):
     max_panels: PositiveCount = 200_000
 
 
+MAIN = "main"
+"""The shape that `[rail]` and `[generatrix]` describe."""
+
+
+class ShapeTable(Settings):
+    """An entry of `[[shapes]]`: another shape made of the same nodes.
+
+    The keys of its `rail` and `generatrix` take the place of those in the tables of the project.
+    """
+
+    name: Annotated[Text, Field(min_length=1)]
+    rail: dict[str, Any] = Field(default_factory=dict[str, Any])
+    generatrix: dict[str, Any] = Field(default_factory=dict[str, Any])
+
+    @property
+    def slug(self) -> str:
+        """The name of its folder."""
+        return safe_name(self.name, "shapes.name")
+
+
+def _distinct(shapes: tuple[ShapeTable, ...]) -> tuple[ShapeTable, ...]:
+    slugs = [MAIN, *(shape.slug for shape in shapes)]
+    if len(set(slugs)) < len(slugs):
+        message = f"names must differ in their letters and digits, also from {MAIN!r}: {', '.join(slugs)}"
+        raise ValueError(message)
+    return shapes
+
+
 class Project(Settings):
     """A whole project file."""
 
@@ -96,6 +125,7 @@ class Project(Settings):
     costs: CostSettings = CostSettings()
     deliver: DeliverSettings = DeliverSettings()
     limits: LimitTable = LimitTable()
+    shapes: Annotated[tuple[ShapeTable, ...], AfterValidator(_distinct)] = ()
 
     @model_validator(mode="after")
     def _classes_fit_the_gaps(self) -> "Project":

@@ -39,6 +39,12 @@ class Delivery:
         return read_design(self.folder / "model" / "design.json")
 
     @cached_property
+    def shapes(self) -> dict[str, "Delivery"]:
+        """The other shapes of the project by name: complete folders of their own."""
+        names = self.design.raw.get("shapes", [])
+        return {name: Delivery(self.folder / "shapes" / name, spread=self.spread) for name in names}
+
+    @cached_property
     def manifest(self) -> Json:
         """The content of `manifest.json`."""
         return read_json(self.folder / "manifest.json")

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from isomould.parts.strips import Along
 from isomould.settings import Settings
-from isomould.units import Length
+from isomould.units import Flag, Length
 
 LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]
@@ -28,3 +28,5 @@ class DeliverSettings(Settings):
     strips: tuple[Along, ...] = ()
     """Strips to unroll: between neighbouring generatrices, between neighbouring parallels."""
     double_layer: DoubleLayerSettings | None = None
+    compare: Flag = False
+    """Schedule the same surface as every mesh family."""

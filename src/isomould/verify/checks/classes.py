@@ -37,7 +37,7 @@ def arms_of(mesh: Mesh, reference: Floats) -> Arms:
 def nodes(delivery: Delivery) -> Measured:
     """Azimuths, elevations, families of every node's arms against its class, in degrees; never mirrored."""
     mesh, table = delivery.mesh, delivery.table("nodes")
-    arms = arms_of(mesh, _references(delivery))
+    arms = arms_of(mesh, reference_directions(delivery))
     order = np.lexsort((np.round(arms.azimuth, 6) % (2 * np.pi), arms.owner))
     ends = np.searchsorted(arms.owner[order], np.arange(len(mesh.nodes) + 1))
     rows = {mark: k for k, mark in enumerate(texts(table, "mark"))}
@@ -50,7 +50,7 @@ def nodes(delivery: Delivery) -> Measured:
     return worst_of(off, mesh.node_location, limit=limit)
 
 
-def _references(delivery: Delivery) -> Floats:
+def reference_directions(delivery: Delivery) -> Floats:
     """Give the direction of arm 1 of every node of the mesh, (n, 3), from the instances' table."""
     table = delivery.table("node_instances")
     values = np.column_stack([numbers(table, f"ref_{axis}") for axis in "xyz"])
