@@ -107,6 +107,25 @@ SMALL: dict[str, Any] = {
 }
 """A vault of 8 × 6 nodes with sheets, bars and strips: quick to build, everything in it."""
 
+FAMILY: dict[str, Any] = {
+    "schema": 1,
+    "project": {"name": "Family"},
+    "rail": {
+        "curve": {"kind": "arc", "radius": 4000, "start_deg": 0, "end_deg": 180},
+        "plane": "xz",
+        "outside": [0, 1],
+        "divide": {"angle_deg": 30, "first_deg": 90},
+    },
+    "generatrix": {**SMALL["generatrix"], "divide": {"per_arc": 2}},
+    "shapes": [
+        {
+            "name": "Tall one",
+            "rail": {"curve": {"kind": "ellipse", "semi_axes": [3500, 5000], "start_deg": 0, "end_deg": 180}},
+        }
+    ],
+}
+"""Two vaults of one kit of nodes: half a circle and half an ellipse."""
+
 MONGE: dict[str, Any] = {
     "schema": 1,
     "project": {"name": "Monge"},

@@ -1,6 +1,6 @@
 """isomould: from two curves to everything a shop needs to build a free-form gridshell."""
 
-from isomould.api import Checked, build, check, compare, draw, frames, nest, new, schedule, verify
+from isomould.api import Checked, build, check, compare, draw, explore, frames, nest, new, schedule, verify
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
 from isomould.pipeline import Built, Run
 
@@ -17,6 +17,7 @@ __all__ = [
     "check",
     "compare",
     "draw",
+    "explore",
     "frames",
     "nest",
     "new",

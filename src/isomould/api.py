@@ -8,7 +8,7 @@ from typing import Literal
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.design import Design, requests_of
+from isomould.design import Design, make_design, requests_of
 from isomould.documents.graph import curvature_picture
 from isomould.documents.overview import Fact, kit_facts
 from isomould.documents.picture import Picture
@@ -26,8 +26,9 @@ from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder, schedule_folder
-from isomould.project.load import load_project
-from isomould.project.schema import MAIN
+from isomould.project.load import load_project, read_tables
+from isomould.project.schema import MAIN, Project
+from isomould.study import Study, make_study
 from isomould.templates import copy_template
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import workers
@@ -35,6 +36,7 @@ from isomould.writers.csv import csv_text
 from isomould.writers.disk import replace_file
 from isomould.writers.names import safe_name
 from isomould.writers.svg import svg_text
+from isomould.writers.xlsx import Words, workbook_bytes
 
 View = SpaceView | Literal["developed", "curvature"]
 
@@ -86,6 +88,20 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
     kit = kit_table(designs) if loaded.shapes else None
     return Checked(design, kit_facts(design.kit), divisions, design.notes, kit)
+
+
+def explore(project: str | Path, changes: Sequence[str] = ()) -> Study:
+    """Start a study of a project: change its values and see what follows, fast enough for a slider.
+
+    Parameters
+    ----------
+    project
+        A project file; of several shapes the first.
+    changes
+        Overrides such as `'rail.curve.rise="8 m"'`.
+    """
+    path = Path(project)
+    return make_study(read_tables(path, changes), path.resolve().parent)
 
 
 def build(
@@ -164,12 +180,26 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     out
-        A CSV file to write; it is written whole or not at all.
+        A file to write, `.csv` or `.xlsx`; it is written whole or not at all.
     """
-    compared = compare_families(check(project, changes).design)
+    loaded = load_project(Path(project), changes)
+    compared = compare_families(make_design(loaded.project, loaded.folder))
     if out is not None:
-        replace_file(Path(out), csv_text(families_table(compared)).encode())
+        replace_file(Path(out), _families_bytes(Path(out), compared, loaded.project))
     return compared
+
+
+def _families_bytes(out: Path, compared: tuple[Compared, ...], project: Project) -> bytes:
+    """Write a comparison in the format that the file's name asks for."""
+    table = families_table(compared)
+    match out.suffix.lower():
+        case ".csv":
+            return csv_text(table).encode()
+        case ".xlsx":
+            return workbook_bytes((table,), Words(project.project))
+        case _:
+            way_out = "Write --out families.csv or --out families.xlsx."
+            raise Refused("E-COMPARE-FILE", "--out", str(out), "a file that ends in .csv or .xlsx", way_out)
 
 
 def draw(

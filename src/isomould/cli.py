@@ -153,7 +153,7 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
 @cli.command()
 @click.argument("project", type=click.Path(path_type=Path))
 @click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
-@click.option("--out", type=click.Path(path_type=Path), help="CSV file to write.")
+@click.option("--out", type=click.Path(path_type=Path), help="File to write, .csv or .xlsx.")
 def compare(project: Path, changes: Sequence[str], out: Path | None) -> None:
     """Compare mesh families on the project's surface: the same rail, generatrix and counts."""
     compared = isomould.compare(project, changes, out)

@@ -3,12 +3,18 @@
 from dataclasses import replace
 
 import numpy as np
+import openpyxl
 import pytest
 
 import isomould
 from isomould.comparison import compare_families, families_table
+from isomould.errors import Refused
 from isomould.measure.families import translation, triangulated
 from isomould.measure.smooth import Smooth, surface_distances
+from isomould.verify.delivery import Delivery
+from isomould.verify.folder import RULES
+from isomould.verify.rules import judge
+from isomould.writers.csv import csv_text
 from museum import SMALL, VAULT, changed, design, sphere
 
 
@@ -112,3 +118,24 @@ def test_a_family_without_a_mesh_is_a_row_of_blanks():
     table = families_table((replace(compared[0], measured=None, reason="none"), *compared[1:]))
     assert table.frame["nodes_count"].isna().tolist() == [True, False, False, False, False]
     assert table.frame["reason"].tolist() == ["none", "", "", "", ""]
+
+
+def test_workbook_of_a_comparison(tmp_path, project_file):
+    path = tmp_path / "families.xlsx"
+    compared = isomould.compare(project_file(SMALL), out=path)
+    rows = list(openpyxl.load_workbook(path)["Families"].iter_rows(values_only=True))
+    assert [row[0] for row in rows[1:]] == [each.family for each in compared]
+    assert [row[3] for row in rows[1:]] == [each.measured.nodes for each in compared]
+    with pytest.raises(Refused, match=r"E-COMPARE-FILE --out: .*families\.ods"):
+        isomould.compare(project_file(SMALL), out=tmp_path / "families.ods")
+
+
+@pytest.mark.slow
+def test_the_sheet_of_a_build_is_verified(tmp_path, project_file):
+    path = project_file({**SMALL, "stock": {}, "deliver": {"compare": True}})
+    built = isomould.build(path, tmp_path / "out", run=isomould.Run(effort="quick", jobs=1))
+    table = built.folder / "tables" / "families.csv"
+    assert table.read_bytes().decode() == csv_text(families_table(compare_families(built.design)))
+    table.write_bytes(table.read_bytes().replace(b"isogonal,8,6,48", b"isogonal,8,6,49"))
+    cells = next(rule for rule in RULES if rule.id == "V41")
+    assert "Families row 5 nodes_count: 48" in judge(cells, Delivery(built.folder)).reason

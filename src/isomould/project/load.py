@@ -4,6 +4,7 @@ import difflib
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from pathlib import Path
 from typing import Any, cast, get_args
 
@@ -48,12 +49,15 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
         If the file cannot be read.
     """
     source = _read(path)
-    data = _parse(source, path)
-    for change in overrides:
-        _override(data, change)
+    data = reduce(_override, overrides, _parse(source, path))
     project = validate(data, path.name)
     shapes = [(shape.slug, validate(_reshaped(data, shape), f"{path.name}, {shape.name}")) for shape in project.shapes]
     return LoadedProject(project, path.resolve().parent, source, tuple(shapes))
+
+
+def read_tables(path: Path, overrides: Sequence[str] = ()) -> Mapping[str, Any]:
+    """Read the tables of a project file, with the overrides in place and nothing checked yet."""
+    return reduce(_override, overrides, _parse(_read(path), path))
 
 
 def _reshaped(data: Mapping[str, Any], shape: ShapeTable) -> dict[str, Any]:
@@ -110,7 +114,7 @@ def _parse(source: bytes, path: Path) -> dict[str, Any]:
         raise Refused("E-PROJECT-TOML", str(path), str(error), "valid TOML", "Mend the line.") from None
 
 
-def _override(data: dict[str, Any], change: str) -> None:
+def _override(data: Mapping[str, Any], change: str) -> Mapping[str, Any]:
     """Set one value by its dotted key; the value is TOML, or text if it is none."""
     key, equals, text = change.partition("=")
     if not equals or not all(key.split(".")):
@@ -125,14 +129,22 @@ def _override(data: dict[str, Any], change: str) -> None:
         value = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
         value = text
-    *tables, last = key.strip().split(".")
-    place = data
-    for table in tables:
-        inner = place.setdefault(table, {})
-        if not isinstance(inner, dict):
-            raise Refused("E-SET", f"--set {change}", f"{table} is a value", "a table", "Check the key.")
-        place = cast("dict[str, Any]", inner)
-    place[last] = value
+    return with_value(data, key.strip(), value)
+
+
+def with_value(data: Mapping[str, Any], key: str, value: object) -> dict[str, Any]:
+    """Give tables with one value set by its dotted key; tables that are not there yet are made.
+
+    >>> with_value({"rail": {"plane": "xz"}}, "rail.divide.nodes", 5)
+    {'rail': {'plane': 'xz', 'divide': {'nodes': 5}}}
+    """
+    table, dot, rest = key.partition(".")
+    if not dot:
+        return {**data, table: value}
+    inner: object = data.get(table, {})
+    if not isinstance(inner, Mapping):
+        raise Refused("E-SET", f"--set {key}", f"{table} is a value", "a table", "Check the key.")
+    return {**data, table: with_value(cast("Mapping[str, Any]", inner), rest, value)}
 
 
 def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, str, str]:

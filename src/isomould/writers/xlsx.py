@@ -59,7 +59,12 @@ def write_workbook(path: Path, tables: Sequence[Table], words: Words) -> None:
     OutputFault
         If the file cannot be written.
     """
-    write_bytes(path, _render(sorted(tables, key=_place), words))
+    write_bytes(path, workbook_bytes(tables, words))
+
+
+def workbook_bytes(tables: Sequence[Table], words: Words) -> bytes:
+    """Give the workbook that `write_workbook` writes."""
+    return _render(sorted(tables, key=_place), words)
 
 
 def _place(table: Table) -> int:
