@@ -180,3 +180,9 @@ def test_check_prints_the_proof_and_draw_takes_a_shape(project_file, tmp_path):
 
 def test_a_project_of_one_shape_has_no_kit(project_file):
     assert isomould.check(project_file(changed(SMALL))).kit is None
+
+
+def test_marks_of_a_former_delivery_belong_to_all_shapes(project_file, tmp_path, family_folder):
+    run = isomould.Run(effort="quick", jobs=1, previous=family_folder)
+    with pytest.raises(Refused, match="E-SHAPE-PREVIOUS --previous"):
+        isomould.build(project_file(FAMILY), tmp_path / "out", run=run)

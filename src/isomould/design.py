@@ -13,7 +13,7 @@ from isomould.errors import Note, Refused
 from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
 from isomould.form.fitting import fit_curve
-from isomould.form.mesh import make_mesh
+from isomould.form.mesh import Mesh, make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
 from isomould.form.trim import trim_mesh
@@ -44,21 +44,38 @@ def make_design(project: Project, folder: Path) -> Design:
     Refused
         If the project asks for something that cannot be made.
     """
+    drawn = sketch(project, folder)
+    kit = make_kit(drawn.mesh, kit_settings(project))
+    layers = _double_layer(drawn.form, project)
+    notes = (*drawn.notes, *kit.notes, *(layers.notes if layers else ()))
+    return Design(project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """What is known of a design before its parts: curves, surface, mesh, and what should be known about them."""
+
+    rail: RailInPlane | RailInSpace
+    generatrix: PlanarCurve
+    form: Form
+    mesh: Mesh
+    notes: tuple[Note, ...]
+
+
+def sketch(project: Project, folder: Path) -> Sketch:
+    """Compute curves, surface and mesh; `folder` is where the project's file references start.
+
+    Raises
+    ------
+    Refused
+        If the surface cannot be made.
+    """
     requests = requests_of(project)
     rail, rail_notes = _rail(project.rail, requests[0], folder)
     generatrix, generatrix_notes = _generatrix(project.generatrix, requests[1], folder)
-    form = make_form(
-        rail,
-        generatrix,
-        requests,
-        project.surface,
-        project.members.section.depth,
-    )
+    form = make_form(rail, generatrix, requests, project.surface, project.members.section.depth)
     mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
-    kit = make_kit(mesh, kit_settings(project))
-    layers = _double_layer(form, project)
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *kit.notes, *(layers.notes if layers else ()))
-    return Design(project, rail, generatrix, form, kit, notes, layers)
+    return Sketch(rail, generatrix, form, mesh, (*rail_notes, *generatrix_notes, *form.notes, *trim_notes))
 
 
 def _double_layer(form: Form, project: Project) -> DoubleLayer | None:

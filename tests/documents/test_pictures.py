@@ -10,7 +10,7 @@ import pytest
 import isomould
 from isomould.documents.graph import curvature_picture
 from isomould.documents.picture import Caption, Dot, Shape, fit
-from isomould.documents.views import counts_text, developed_picture, space_picture
+from isomould.documents.views import developed_picture, space_picture
 from isomould.errors import Refused
 from isomould.form.polygon import cross
 from isomould.templates import template_folder, template_names
@@ -112,17 +112,28 @@ GALLERY = (DOCS / "gallery.md").read_text(encoding="utf-8")
 SECTIONS = re.findall(r"^## `([\w-]+)`.*?\n(.*?)(?=^## |\Z)", GALLERY, re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize(("template", "text"), SECTIONS)
-def test_the_gallery_shows_what_the_program_draws(template, text, tmp_path):
+PICTURES = [
+    (template, name, re.findall(r"--(\w+) (\S+)", how))
+    for template, text in SECTIONS
+    for name, how in re.findall(r"\]\(pictures/([\w-]+)\.svg\)(?:<!--(.*?)-->)?", text)
+]
+
+
+@pytest.mark.parametrize(("template", "name", "how"), PICTURES)
+def test_the_gallery_shows_what_the_program_draws(template, name, how, tmp_path):
+    options = dict(how)
+    view = name.removeprefix(f"{template}-") if not how else "axonometry"
     project = template_folder() / f"{template}.toml"
-    assert counts_text(isomould.check(project).design.kit) in re.sub(r"\s+", " ", text)
-    for view in re.findall(rf"\]\(pictures/{template}-(\w+)\.svg\)", text):
-        isomould.draw(project, tmp_path / "now.svg", view)
-        now, then = ((p).read_text() for p in (tmp_path / "now.svg", DOCS / "pictures" / f"{template}-{view}.svg"))
-        assert re.findall(r"<(\w+)", now) == re.findall(r"<(\w+)", then)
+    changes = [options["set"]] if "set" in options else []
+    picture = isomould.draw(project, tmp_path / "now.svg", view, changes, options.get("shape", "main"))
+    now, then = (path.read_text() for path in (tmp_path / "now.svg", DOCS / "pictures" / f"{name}.svg"))
+    assert re.findall(r"<(\w+)", now) == re.findall(r"<(\w+)", then)
+    counts = [item.text.partition(": ")[2] for item in picture.items if isinstance(item, Caption)]
+    said = re.sub(r"\s+", " ", dict(SECTIONS)[template])
+    assert all(text in said for text in counts if " nodes of " in text)
 
 
-def test_the_gallery_shows_templates_with_pictures():
-    assert SECTIONS
-    assert {template for template, _ in SECTIONS} <= set(template_names())
-    assert all("](pictures/" in text for _, text in SECTIONS)
+def test_the_gallery_shows_every_template_with_its_counts():
+    assert {template for template, _ in SECTIONS} == set(template_names())
+    assert all("](pictures/" in text and re.search(r"\d nodes of", text) for _, text in SECTIONS)
+    assert {path.stem for path in (DOCS / "pictures").glob("*.svg")} == {name for _, name, _ in PICTURES}
