@@ -11,11 +11,13 @@ from isomould.curves.settings import build_curve
 from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Note, Refused
 from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
+from isomould.form.clash import refuse_clashes
 from isomould.form.division import Request
 from isomould.form.fitting import fit_curve
 from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
+from isomould.form.slivers import weigh_panels
 from isomould.form.trim import trim_mesh
 from isomould.measure.offsets import DoubleLayer, make_double_layer
 from isomould.parts.kit import Kit, KitSettings, make_kit
@@ -55,9 +57,19 @@ def make_design(project: Project, folder: Path) -> Design:
         project.members.section.depth,
     )
     mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
+    panel_notes = weigh_panels(mesh)
+    refuse_clashes(mesh, project.members.section.depth)
     kit = make_kit(mesh, kit_settings(project))
     layers = _double_layer(form, project)
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *kit.notes, *(layers.notes if layers else ()))
+    notes = (
+        *rail_notes,
+        *generatrix_notes,
+        *form.notes,
+        *trim_notes,
+        *panel_notes,
+        *kit.notes,
+        *(layers.notes if layers else ()),
+    )
     return Design(project, rail, generatrix, form, kit, notes, layers)
 
 
