@@ -55,7 +55,7 @@ class _WithCoordinates(Settings):
         if isinstance(data, dict) and data.get("units") not in (None, "mm"):
             bare = [name for name in _LENGTHS if _is_bare(data.get(name))]
             if bare:
-                message = f"{bare[0]} is a bare number beside units = {data['units']!r}; write it with its unit"
+                message = f"{bare[0]} is a bare number beside units = {data['units']!r}; a text with its unit"
                 raise ValueError(message)
         return data
 

@@ -79,7 +79,7 @@ def _common(pairs: Floats) -> Floats:
     coplanar = (abs(heights).max(axis=(1, 2)) <= LENGTH) & ~pierced
     common = np.zeros(len(pairs))
     common[pierced] = _along(pairs[pierced], heights[pierced], line[pierced] / sine[pierced, None])
-    common[coplanar] = [_root_of_area(*pairs[k], normals[k, 0]) for k in np.flatnonzero(coplanar)]
+    common[coplanar] = [_root_of_area(pairs[k, 0], pairs[k, 1], normals[k, 0]) for k in np.flatnonzero(coplanar)]
     return common
 
 
