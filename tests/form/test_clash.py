@@ -128,11 +128,12 @@ def with_stations(*stations):
 def panel_notes(data):
     project = validate(data, "museum")
     form = make_form(*ingredients(project))
-    return [note.text for note in weigh_panels(make_mesh(form.surface))]
+    return [str(note) for note in weigh_panels(make_mesh(form.surface))]
 
 
 def test_slender_panels_are_noted():
     (text,) = panel_notes(with_stations(2000, 2060))
+    assert "W-PANEL-SLIVER" in text
     assert "sides more than 20 times as long as others" in text
     assert panel_notes(with_stations(2000)) == []
 
