@@ -34,7 +34,7 @@ from isomould.verify import Certificate, verify_folder
 from isomould.workers import workers
 from isomould.writers.csv import csv_text
 from isomould.writers.disk import replace_file
-from isomould.writers.names import safe_name
+from isomould.writers.names import check_file_name, safe_name
 from isomould.writers.svg import svg_text
 from isomould.writers.xlsx import Words, workbook_bytes
 
@@ -63,12 +63,14 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
     Raises
     ------
     Refused
-        If the template is unknown or a file is in the way.
+        If the template is unknown, a file is in the way, or some system cannot hold a file of that name.
     """
     path = Path(name)
     if not path.name:
         raise Refused("E-NEW", "NAME", repr(name), "a file name", "Name the project: isomould new roof.")
-    return copy_template(template, path if path.suffix == ".toml" else path.with_name(f"{path.name}.toml"))
+    file = path if path.suffix == ".toml" else path.with_name(f"{path.name}.toml")
+    check_file_name(file.name)
+    return copy_template(template, file)
 
 
 def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:

@@ -26,11 +26,12 @@ from isomould.form.survey import Division
 from isomould.nesting.search import Effort
 from isomould.nesting.stop import Stop
 from isomould.templates import describe_template, template_names
-from isomould.verify import Certificate
+from isomould.verify import Check
 
 _EFFORT = click.Choice(["quick", "normal", "best"])
 _VIEW = click.Choice(["axonometry", "plan", "elevation", "developed", "curvature"])
 _INTERRUPTED = 130
+_STATUS = {"pass": "pass", "fail": "FAIL", "not_applicable": "none"}
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
@@ -126,7 +127,8 @@ def verify(folder: Path) -> None:
     click.echo(f"{folder}: {passed} checks passed, {len(certificate.failures)} failed")
     for check in certificate.failures:
         click.echo(f"failed: {check.id} {check.what}: {check.reason or check.where}")
-    _console().print(_certificate_table(certificate))
+    for one in certificate.checks:
+        _say(f"{_STATUS[one.status]}  {one.id:<5} {one.what}\n{_measured(one)}")
     if not certificate.passed:
         raise isomould.CertificateFailed(f"E-CERTIFICATE {folder}: {len(certificate.failures)} checks failed")
 
@@ -213,16 +215,14 @@ def _division_table(divisions: Sequence[Division]) -> Table:
     return table
 
 
-def _certificate_table(certificate: Certificate) -> Table:
-    table = Table(box=None)
-    for heading in ("", "check", "count", "worst", "limit", "where"):
-        table.add_column(heading, overflow="fold")
-    for check in certificate.checks:
-        worst = "" if check.worst is None else f"{check.worst:.3g} {check.unit}"
-        limit = "" if check.limit is None else f"{check.limit:.3g}"
-        where = check.reason or check.where
-        table.add_row(check.status, f"{check.id} {check.what}", str(check.count), worst, limit, where)
-    return table
+def _measured(check: Check) -> str:
+    """Say below a check what it found, or why it could not; two short lines fit every terminal."""
+    worst = "" if check.worst is None else f"worst {f'{check.worst:.3g} {check.unit}'.strip()}"
+    limit = "" if check.limit is None or check.worst is None else f"limit {check.limit:.3g}"
+    counted = f"{check.count} tested" if check.count else ""
+    where = f"at {check.where}" if check.where and check.worst else ""
+    said = ", ".join(part for part in (f"{worst} {where}".strip(), limit, counted, check.reason) if part)
+    return f"{'':<12}{said}"
 
 
 def _console() -> Console:

@@ -11,11 +11,13 @@ from isomould.curves.settings import build_curve
 from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Note, Refused
 from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
+from isomould.form.clash import refuse_clashes
 from isomould.form.division import Request
 from isomould.form.fitting import fit_curve
 from isomould.form.mesh import Mesh, make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
+from isomould.form.slivers import weigh_panels
 from isomould.form.trim import trim_mesh
 from isomould.measure.offsets import DoubleLayer, make_double_layer
 from isomould.parts.kit import Kit, KitSettings, make_kit
@@ -75,7 +77,10 @@ def sketch(project: Project, folder: Path) -> Sketch:
     generatrix, generatrix_notes = _generatrix(project.generatrix, requests[1], folder)
     form = make_form(rail, generatrix, requests, project.surface, project.members.section.depth)
     mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
-    return Sketch(rail, generatrix, form, mesh, (*rail_notes, *generatrix_notes, *form.notes, *trim_notes))
+    panel_notes = weigh_panels(mesh)
+    refuse_clashes(mesh, project.members.section.depth)
+    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *panel_notes)
+    return Sketch(rail, generatrix, form, mesh, notes)
 
 
 def _double_layer(form: Form, project: Project) -> DoubleLayer | None:

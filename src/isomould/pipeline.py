@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from isomould.curves.settings import DxfSettings
+from isomould.curves.drawn import DxfSettings, RhinoSettings
 from isomould.cutting import nest_kit
 from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
@@ -156,7 +156,9 @@ def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
     projects = (loaded.project, *(project for _, project in loaded.shapes))
     curves = [curve for project in projects for curve in (project.rail.curve, project.generatrix.curve)]
     drawings = {
-        curve.file: (loaded.folder / curve.file).read_bytes() for curve in curves if isinstance(curve, DxfSettings)
+        curve.file: (loaded.folder / curve.file).read_bytes()
+        for curve in curves
+        if isinstance(curve, DxfSettings | RhinoSettings)
     }
     return {"project.toml": loaded.source, **drawings}
 

@@ -38,15 +38,18 @@ def parse_length(value: object) -> float:
     if isinstance(value, str):
         return _finite(_parse_text(value), value)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        message = f"{value!r} is not a length; write a number in mm or a string such as '24 m'"
+        message = f"{value!r} is not a length; a number in mm or a text such as '24 m'"
         raise ValueError(message)
     return _finite(value, value)
 
 
 def _parse_text(text: str) -> Fraction:
     match = _QUANTITY.fullmatch(text)
+    if re.search(r"\d,\d", text):
+        message = f"{text!r} has a decimal comma; a decimal point"
+        raise ValueError(message)
     if match is None or (match["whole"] and "/" not in match["number"]):
-        message = f"{text!r} is not a length; write a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
+        message = f"{text!r} is not a length; a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
         raise ValueError(message)
     number = Fraction(match["number"]) + Fraction(match["whole"] or 0)
     sign = -1 if match["sign"] == "-" else 1
@@ -63,14 +66,14 @@ def _finite(length: float | Fraction, value: object) -> float:
 
 def _positive(value: float) -> float:
     if value <= 0:
-        message = f"{value:g} must be greater than zero"
+        message = "must be greater than zero"
         raise ValueError(message)
     return value
 
 
 def _not_negative(value: float) -> float:
     if value < 0:
-        message = f"{value:g} must not be negative"
+        message = "must be at least 0"
         raise ValueError(message)
     return value
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import isomould
 from museum import SMALL, changed
 
 TRAPEZOIDS = {
@@ -55,6 +56,14 @@ def test_new_overwrites_nothing(tmp_path):
     assert refused.returncode == 2
     assert "roof.toml" in refused.stderr
     assert (tmp_path / "roof.toml").read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["CON", "nul.toml", "a:b", "x" * 90])
+def test_new_refuses_names_that_some_system_cannot_hold(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(isomould.Refused, match="E-NAME-01 NAME"):
+        isomould.new(name)
+    assert not list(tmp_path.iterdir())
 
 
 def test_build_and_verify(tmp_path, project_file):

@@ -160,7 +160,7 @@ def test_bulges_of_every_size_are_arcs(bulge):
         ({"kind": "arc", "radius": 9000, "start_deg": 5, "end_deg": 5}, "E-CURVE-RANGE", "end_deg"),
         ({"kind": "arc", "span": 9000, "rise": 0}, "E-CURVE-RISE", "rise"),
         ({"kind": "parabola", "span": 9000, "rise": 0}, "E-CURVE-RISE", "rise"),
-        ({"kind": "dxf", "file": "a.dxf", "layer": "RAIL", "drawn": "world"}, "E-DXF-PLANE", "drawn"),
+        ({"kind": "dxf", "file": "a.dxf", "layer": "RAIL", "drawn": "world"}, "E-DRAWN-PLANE", "drawn"),
     ],
 )
 def test_refusals_name_the_key(table, code, field):

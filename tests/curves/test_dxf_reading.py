@@ -7,7 +7,7 @@ from ezdxf.math import Matrix44
 from pydantic import TypeAdapter
 
 from isomould.curves.curve import join_pieces
-from isomould.curves.dxf import Drawing, read_curve
+from isomould.curves.drawn import DxfSettings, read_drawn
 from isomould.curves.lengths import length, parameter_at
 from isomould.curves.plane import PlaneSettings, build_plane
 from isomould.curves.settings import CurveSettings, build_curve
@@ -38,9 +38,9 @@ def draw(tmp_path):
 class Pen:
     """The model space with every entity on layer RAIL."""
 
-    def __init__(self, document):
+    def __init__(self, document, space=None):
         self.document = document
-        self.space = document.modelspace()
+        self.space = document.modelspace() if space is None else space
 
     def __getattr__(self, name):
         def add(*args, **kwargs):
@@ -271,11 +271,68 @@ def test_nested_blocks(draw):
     np.testing.assert_allclose(ends(curve)[0], (1000, 500), atol=1e-9)
 
 
-def test_blocks_that_would_distort_are_refused(draw):
-    def skewed(pen):
-        pen.blockref(block_of(pen), (0, 0), dxfattribs={"xscale": 2})
+AFFINE = {  # of an INSERT: attributes, and the matrix (rows are the images of x and y) and offset that they stand for
+    "stretched": ({"xscale": 3, "yscale": 0.5}, [[3, 0], [0, 0.5]], (0, 0)),
+    "mirrored, stretched": ({"xscale": -1, "yscale": 2}, [[-1, 0], [0, 2]], (0, 0)),
+    "turned, stretched": ({"xscale": 2, "yscale": 5, "rotation": 90}, [[0, 2], [-5, 0]], (0, 0)),
+    "seen from below": ({"xscale": 2, "extrusion": BACK}, [[-2, 0], [0, 1]], (0, 0)),
+    "moved": ({"xscale": 2, "yscale": 3, "zscale": 7}, [[2, 0], [0, 3]], (500, -70)),
+}
 
-    assert "scales 2, 1, 1" in refused(draw, skewed)
+
+def whole_sketch(pen):
+    """Every kind of entity once, end to end."""
+    pen.line((0, 0), (1000, 0))
+    pen.arc((1000, 500), 500, 270, 0)
+    pen.lwpolyline([(1500, 500, 0.4), (1500, 900, 0)], format="xyb")
+    pen.ellipse((1500, 1100), (400, 0), 0.5, -np.pi / 2, 0)
+    pen.rational_spline([(1900, 1100), (2500, 1100), (2500, 1900)], [1, 0.7, 1], degree=2)
+
+
+@pytest.mark.parametrize("case", AFFINE)
+def test_stretched_blocks_are_the_affine_image_exactly(draw, case):
+    attributes, matrix, offset = AFFINE[case]
+
+    def inserted(pen):
+        block = pen.document.blocks.new("PART", base_point=(10, 20))
+        whole_sketch(Pen(pen.document, block))
+        pen.blockref("PART", offset, dxfattribs=attributes)
+
+    plain, _ = draw(whole_sketch)
+    curve, notes = draw(inserted)
+    index, t = np.repeat(np.arange(5), 7), np.tile(np.linspace(0, 1, 7), 5)
+    expected = (plain.point(index, t) - [10, 20]) @ np.array(matrix, float) + offset
+    np.testing.assert_allclose(curve.point(index, t), expected, atol=1e-9)
+    assert notes[0].code == "W-DXF-BLOCK"
+
+
+def test_nested_stretched_blocks_multiply(draw):
+    def sketch(pen):
+        outer = pen.document.blocks.new("OUTER")
+        outer.add_blockref(block_of(pen), (100, 0), dxfattribs={"rotation": 90})
+        pen.blockref("OUTER", (0, 0), dxfattribs={"xscale": 2, "layer": "RAIL"})
+
+    curve, _ = draw(sketch)
+    np.testing.assert_allclose(ends(curve), [(200, 0), (200 - 1800, 1500)], atol=1e-9)
+
+
+def test_rows_of_a_block_are_each_in_their_place(draw):
+    def sketch(pen):
+        block = pen.document.blocks.new("STEP")
+        block.add_line((0, 0), (1000, 0))
+        pen.blockref("STEP", (0, 0), dxfattribs={"column_count": 3, "column_spacing": 1000})
+
+    curve, _ = draw(sketch)
+    np.testing.assert_allclose(ends(curve), [(0, 0), (3000, 0)])
+
+
+def test_blocks_that_cannot_be_placed_are_refused(draw):
+    def collapsed(pen):
+        insert = pen.blockref(block_of(pen), (0, 0))
+        insert.dxf.discard("xscale")
+        insert.dxf.__dict__["xscale"] = 0.0
+
+    assert "scales 0, 1, 1" in refused(draw, collapsed)
 
     def in_metres(pen):
         block_of(pen)
@@ -316,7 +373,7 @@ def test_an_upright_arc_in_the_world(draw):
 def test_what_leaves_the_plane_is_refused(draw):
     plane = build_plane("xz")
     text = refused(draw, lambda pen: pen.line((0, 2e-6, 0), (9000, 0, 0)), plane=plane, drawn="world")
-    assert "E-DXF-PLANE" in text
+    assert "E-DRAWN-PLANE" in text
     assert "by 2e-06 mm" in text
     text = refused(draw, lambda pen: pen.line((0, 0, 0), (9000, 0, 1)))
     assert "leaves the height of the drawing by 1 mm" in text
@@ -426,10 +483,10 @@ def bad_knots(pen):
         (lambda pen: pen.text("RAIL"), "ENTITY", "TEXT"),
         (lambda pen: pen.point((0, 0)), "ENTITY", "visible ARC, CIRCLE, ELLIPSE, LINE"),
         (lambda pen: pen.line((0, 0), (9, 9), dxfattribs={"invisible": 1}), "ENTITY", "LINE"),
-        (lambda pen: pen.line((0, 0), (float("nan"), 9)), "ENTITY", "a number nan"),
-        (lambda pen: pen.line((0, 0), (float("inf"), 9)), "ENTITY", "a number inf"),
-        (lambda pen: pen.line((0, 0), (1e300, 9)), "ENTITY", "1e+300"),
-        (lambda pen: pen.lwpolyline([(float("inf"), 0), (9, 9)]), "ENTITY", "a number"),
+        (lambda pen: pen.line((0, 0), (float("nan"), 9)), "NUMBER", "a number nan"),
+        (lambda pen: pen.line((0, 0), (float("inf"), 9)), "NUMBER", "a number"),
+        (lambda pen: pen.line((0, 0), (1e300, 9)), "NUMBER", "1e+300"),
+        (lambda pen: pen.lwpolyline([(float("inf"), 0), (9, 9)]), "NUMBER", "LWPOLYLINE 30: a number"),
         (lambda pen: pen.circle((0, 0), 0), "ENTITY", "radius 0"),
         (lambda pen: pen.circle((0, 0), -5), "ENTITY", "radius -5"),
         (smoothed, "ENTITY", "smoothed polyline"),
@@ -469,7 +526,8 @@ def test_layer_names_ignore_case_and_paper_space_is_no_drawing(draw):
 
 
 def read(path):
-    return read_curve(Drawing(path, "RAIL", "mm", None), "rail.curve")
+    settings = DxfSettings(kind="dxf", file=path.name, layer="RAIL", units="mm")
+    return read_drawn(settings, path.parent, None, "rail.curve")
 
 
 @pytest.mark.parametrize(

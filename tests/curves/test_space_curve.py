@@ -110,7 +110,7 @@ def test_lines_and_an_arc_in_any_order_and_plane(tmp_path):
     curve = read(drawn(tmp_path / "joined.dxf", draw))
     assert len(curve.pieces) == 3
     assert length(curve) == pytest.approx(8000 + 2500 * np.pi)
-    with pytest.raises(Refused, match=r"E-DXF-CURVES.*nearest ends are 0.01 mm"):
+    with pytest.raises(Refused, match=r"E-DRAWN-CURVES.*nearest ends are 0.01 mm"):
         read(drawn(tmp_path / "parted.dxf", lambda space, on: draw(space, on, 1e-5)))
 
 

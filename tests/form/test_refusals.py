@@ -9,6 +9,11 @@ STRAIGHT = {"kind": "polyline", "points": [[0, 0], [8000, 0]]}
 KINKED = {"kind": "polyline", "points": [[0, 0], [4000, 2000], [8000, 0]]}
 NOISY = {"kind": "spline", "points": [[k * 500, 3 * (-1) ** k + k * (16 - k) * 10] for k in range(17)]}
 LOOP = {"kind": "bspline", "points": [[0, 0], [9000, 6000], [9000, 0], [0, 6000]], "closed": True}
+OMEGA = {
+    "kind": "polyline",
+    "points": [[-300, 0], [-2500, 1500], [-2500, 4000], [0, 5500], [2500, 4000], [2500, 1500], [300, 0]],
+}
+LEANING = {"kind": "polyline", "points": [[0, 0], [-600, 1500], [-900, 3000]]}
 
 CASES = {
     "kink": (changed(SMALL, rail={"curve": KINKED}), ["E-CURVE-KINK", "rail.curve", "°", "Fillet"]),
@@ -88,7 +93,16 @@ CASES = {
             },
             surface={"kind": "moulding"},
         ),
-        ["E-CURVE-CROSSING", "rail.curve"],
+        ["E-CURVE-CROSSING", "rail.curve", "edges 0 and 2 meet at"],
+    ),
+    "parallel that crosses itself": (
+        changed(
+            SMALL,
+            rail={"curve": OMEGA, "plane": "xy", "divide": {}},
+            generatrix={"curve": LEANING, "axes": "dz", "divide": {}},
+            surface={"kind": "moulding"},
+        ),
+        ["E-SURFACE-CROSSING", "parallel 1", "edges 0 and 5 meet at (293.863, -430.999) mm", "generatrix"],
     ),
 }
 
@@ -100,3 +114,9 @@ def test_refused(case):
         design(data)
     for word in words:
         assert word in str(refusal.value)
+
+
+def test_coarse_rails_are_noted():
+    arc = {"kind": "arc", "radius": 6000, "start_deg": 0, "end_deg": 170}
+    notes = design(changed(SMALL, rail={"curve": arc, "divide": {"angle_deg": 40}})).form.notes
+    assert "W-RAIL-COARSE rail.divide: the rail turns by 40.00° at a node, more than 30°" in map(str, notes)

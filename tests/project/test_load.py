@@ -31,14 +31,17 @@ BROKEN = {
     "unknown key in a curve": ({"rail": {"curve": {"kind": "parabola", "span": 8000, "rize": 2}}}, ["rise"]),
     "unknown table": ({"panel": {"gap": 3}}, ["panel", "'panels'"]),
     "wrong unit": ({"panels": {"gap": "12 cubits"}}, ["panels.gap", "12 cubits", "mm, cm, m, in, ft"]),
-    "decimal comma": ({"panels": {"gap": "12,5 mm"}}, ["panels.gap", "12,5 mm"]),
+    "decimal comma": (
+        {"panels": {"gap": "12,5 mm"}},
+        ["panels.gap: '12,5 mm' has a decimal comma", "Write a decimal point: 12.5 mm"],
+    ),
     "a flag for a length": ({"panels": {"gap": True}}, ["panels.gap", "True is not a length"]),
     "a length beyond floats": ({"panels": {"gap": "1e400 m"}}, ["panels.gap", "1e400 m", "at most 1e+09 mm"]),
     "a whole number beyond floats": ({"panels": {"gap": 10**400}}, ["panels.gap", "at most 1e+09 mm"]),
     "a gap that is no gap": ({"panels": {"spacer": 1e15}}, ["panels.spacer", "at most 1e+09 mm"]),
     "a number whose square overflows": (
         {"rail": {"curve": {"kind": "polyline", "points": [[0, 0], [1e300, 9]]}}},
-        ["rail.curve.points.1.0", "1e+300: must lie between"],
+        ["rail.curve.points.1.0", "1e+300. Limit: between -1e+12 and 1e+12"],
     ),
     "a count beyond floats": ({"rail": {"divide": {"nodes": 10**400}}}, ["rail.divide.nodes"]),
     "a list that is too short": ({"generatrix": {"origin": []}}, ["generatrix.origin.0", "missing"]),
@@ -59,12 +62,24 @@ BROKEN = {
     "phase without edge offset": ({"generatrix": {"divide": {"phase": "centre"}}}, ["edge-offset"]),
     "line break in the name": ({"project": {"name": "a\nb"}}, ["project.name", "control characters"]),
     "direction override in the name": ({"project": {"name": "a\u202eb"}}, ["project.name"]),
-    "kerf over gap": ({"stock": {"gap": 1, "kerf": 3}}, ["gap 1 mm is less than the kerf 3 mm"]),
+    "kerf over gap": ({"stock": {"gap": 1, "kerf": 3}}, ["gap 1 mm is too narrow", "the kerf of 3 mm"]),
     "classes wider than the gaps": (
         {"panels": {"gap": 2}, "tolerances": {"length": 1.5}},
         ["1.5 mm", "panels.gap = 2 mm"],
     ),
     "classes without limits": ({"tolerances": {"angle_deg": 30}}, ["tolerances.angle_deg", "0.5"]),
+    "decimal comma in a number": (
+        {"rail": {"divide": {"angle_deg": "12,5"}}},
+        ["angle_deg: '12,5'. Limit: a valid number. Write a decimal point: 12.5."],
+    ),
+    "a text too long": ({"members": {"grade": "x" * 30}}, ["Limit: at most 24 characters"]),
+    "a value for a table": ({"members": 5}, ["members: 5. Limit: a table"]),
+    "half an arc": (
+        {"rail": {"curve": {"kind": "arc", "radius": 3}}},
+        ["rail.curve: keys that do not go together", "Limit: an arc takes radius, start_deg and end_deg"],
+    ),
+    "a curve without a kind": ({"rail": {"curve": {"radius": 3}}}, ["rail.curve", "Limit: a table with its kind"]),
+    "a flag for the schema": ({"schema": True}, ["schema: True. Limit: a valid integer"]),
     "future schema": ({"schema": 2}, ["schema", "1"]),
     "layer with a line break": ({"deliver": {"layers": {"CUT": "A\nB"}}}, ["deliver.layers"]),
 }
@@ -120,3 +135,14 @@ def test_missing_file(tmp_path):
 def test_broken_overrides(project_file, change):
     with pytest.raises(Refused, match="--set"):
         load_project(project_file(SMALL), [change])
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_every_limit_is_said(case):
+    """No message sends its reader away for the limit."""
+    change, _ = BROKEN[case]
+    data = {**SMALL, **{k: {**SMALL.get(k, {}), **v} if isinstance(v, dict) else v for k, v in change.items()}}
+    with pytest.raises(Refused) as refusal:
+        validate(data, "project.toml")
+    assert "docs/" not in refusal.value.limit
+    assert refusal.value.limit not in {"", refusal.value.found}

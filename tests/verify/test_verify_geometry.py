@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from verify_museum import changed, ring, sphere, spoilt, status, vault, with_rail, with_raw
 
-from isomould.verify.checks import nodes, panels, polygons, topology
+from isomould.verify.checks import crossing, nodes, panels, polygons, topology
 from isomould.verify.rules import judge
 
-RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES)
+RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES, *crossing.RULES)
 GOOD = {"vault": vault(), "ring": ring(), "sphere": sphere()}
 
 
@@ -104,7 +104,22 @@ def flipped_by_depth(delivery):
     return with_raw(delivery, member={"depth": 4e4})
 
 
+def pulled_across(delivery):
+    """One corner of the mesh drawn through the inside and out again."""
+    mesh = delivery.mesh
+    middle = len(mesh.nodes) // 2
+    far = mesh.nodes[middle] + 1500 * mesh.node_axes[middle]
+    return spoilt(delivery, "mesh", nodes=changed(mesh.nodes, 0, far - mesh.nodes[0]))
+
+
+def high_beams(delivery):
+    return with_raw(delivery, member={"depth": 4e4})
+
+
 FAULTS = [
+    ("V13", "vault", pulled_across),
+    ("V13", "ring", pulled_across),
+    ("V13", "vault", high_beams),
     ("V1", "vault", moved),
     ("V1", "ring", moved),
     ("V2", "vault", moved),

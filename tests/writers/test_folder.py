@@ -40,6 +40,27 @@ def test_folder_is_published_whole_and_alone(tmp_path):
     assert folder_faults(tmp_path / "deep" / "vault") == []
 
 
+def test_an_empty_folder_may_be_filled(tmp_path):
+    (tmp_path / "vault").mkdir()
+    deliver(tmp_path / "vault")
+    assert folder_faults(tmp_path / "vault") == []
+    assert names(tmp_path) == ["vault"]
+
+
+def test_what_comes_into_an_empty_folder_meanwhile_stays(tmp_path):
+    (tmp_path / "vault").mkdir()
+
+    def deliver_while_another_writes():
+        with candidate(tmp_path / "vault") as inside:
+            write_manifest(inside, {}, VERSIONS)
+            (tmp_path / "vault" / "mine.txt").write_text("mine")
+
+    with pytest.raises(Refused, match="it exists"):
+        deliver_while_another_writes()
+    assert (tmp_path / "vault" / "mine.txt").read_text() == "mine"
+    assert names(tmp_path) == ["vault"]
+
+
 def test_manifest_lists_every_file_with_its_hash(tmp_path):
     deliver(tmp_path / "vault")
     manifest = json.loads((tmp_path / "vault" / "manifest.json").read_text(encoding="utf-8"))
@@ -311,7 +332,7 @@ def test_a_kill_at_any_step_leaves_the_old_folder_or_the_new_one_or_none(tmp_pat
     assert names(tmp_path) == ["vault"]
 
 
-@pytest.mark.parametrize("name", ["", "...", "CON", "com1", "a\0b", "東京", "x" * 81, "a\nb", "\ud800"])
+@pytest.mark.parametrize("name", ["", "...", "CON", "com1", "a\0b", "——", "x" * 81, "a\nb", "\ud800"])
 def test_names_that_some_system_cannot_hold_are_refused(name):
     with pytest.raises(Refused, match=r"project\.name"):
         safe_name(name)

@@ -26,7 +26,7 @@ class Stroke(NamedTuple, Generic[P]):
     """What one entity draws: pieces that join, in its own direction."""
 
     name: str
-    """The entity's type and handle, for messages."""
+    """What messages call the entity, for messages."""
     pieces: tuple[P, ...]
 
 
@@ -36,7 +36,7 @@ def chained(strokes: list[Stroke[P]], field: str) -> tuple[tuple[P, ...], bool]:
     Raises
     ------
     Refused
-        E-DXF-CURVES if they form more than one curve or branch; the message lists the entities.
+        E-DRAWN-CURVES if they form more than one curve or branch; the message lists the entities.
     """
     tips = _tips(strokes)
     nodes = _nodes(tips)
@@ -148,7 +148,7 @@ def _refuse_doubled(strokes: list[Stroke[Any]], closed: bool, field: str) -> Non
 
 def _refuse(found: str, limit: str, field: str) -> None:
     raise Refused(
-        code="E-DXF-CURVES",
+        code="E-DRAWN-CURVES",
         field=field,
         found=found,
         limit=limit,

@@ -1,4 +1,4 @@
-"""Reading the one curve on a layer of a DXF file (failure modes A1 to A7).
+"""Reading what is drawn on a layer of a DXF file (failure modes A1 to A7).
 
 The file is read strictly: what a lenient reader would repair or leave out is refused.
 """
@@ -6,7 +6,6 @@ The file is read strictly: what a lenient reader would repair or leave out is re
 import logging
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,11 +15,9 @@ from ezdxf.entities.dxfgfx import DXFGraphic
 from ezdxf.filemanagement import readfile
 from ezdxf.lldxf.const import DXFError
 
-from isomould.curves.chains import chained
+from isomould.arrays import Floats
 from isomould.curves.entities import TRACERS, name_of, says_closed
-from isomould.curves.plane import Plane
-from isomould.curves.shapes import Draft
-from isomould.curves.spatial import Shape, Traced, laid_flat
+from isomould.curves.spatial import Shape, Traced
 from isomould.errors import Note, OutputFault, Refused
 from isomould.units import MM_PER_UNIT, LengthUnit
 
@@ -37,43 +34,34 @@ _FAULTS = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Drawing:
+class Drawing(NamedTuple):
     """Which curve of which file."""
 
     path: Path
     layer: str
     units: LengthUnit | None
     """Of a drawing that does not say; otherwise it must agree."""
-    plane: Plane | None
-    """What a drawing in world coordinates is projected on; None for one drawn flat."""
 
 
 class _Found(NamedTuple):
-    """A visible entity of the layer, and how messages call it."""
+    """A visible entity of the layer, how messages call it, and where its blocks put it."""
 
     entity: DXFGraphic
     name: str
+    place: Floats
+    """(4, 4), for rows (x, y, z, 1) from the left."""
 
 
-def read_curve(drawing: Drawing, field: str) -> Draft:
-    """Read the one curve on the drawing's layer.
+def trace_layer(drawing: Drawing, field: str) -> tuple[list[Traced], tuple[Note, ...]]:
+    """Give what is drawn on the drawing's layer as shapes in space, mm, entity by entity.
 
     Raises
     ------
     Refused
-        E-DXF-FILE, -UNITS, -LAYER, -ENTITY, -BLOCK, -CURVES or -PLANE, E-SPLINE-….
+        E-DXF-FILE, -UNITS, -LAYER, -ENTITY or -BLOCK, E-SPLINE-….
     OutputFault
         If the system does not let the file be read.
     """
-    traced, remarks = trace_layer(drawing, field)
-    strokes, repeated = laid_flat(traced, drawing.plane, field)
-    pieces, closed = chained(strokes, field)
-    return Draft(pieces, closed, (*remarks, *repeated))
-
-
-def trace_layer(drawing: Drawing, field: str) -> tuple[list[Traced], tuple[Note, ...]]:
-    """Give what is drawn on the drawing's layer as shapes in space, mm, entity by entity; refusals as above."""
     document = _open(drawing.path, field)
     factor = _factor(document, drawing.units, field)
     found = _on_layer(document, drawing.layer, field)
@@ -141,7 +129,8 @@ _CONVERT = "Convert the drawing to millimetres."
 
 def _on_layer(document: Document, layer: str, field: str) -> list[_Found]:
     with _guarded("E-DXF-BLOCK", field, "the blocks cannot be read"):
-        found = [f for entity in document.modelspace() for f in _visible(document, entity, (layer, None), field)]
+        scope = _Scope(document, layer, None, np.eye(4))
+        found = [f for entity in document.modelspace() for f in _visible(entity, scope, field)]
     if not found:
         layers = sorted({entity.dxf.layer for entity in document.modelspace()})
         limit = f"one of {', '.join(layers[:12])}" if layers else "a drawing with entities"
@@ -150,57 +139,61 @@ def _on_layer(document: Document, layer: str, field: str) -> list[_Found]:
     return found
 
 
-def _visible(document: Document, entity: DXFGraphic, layers: tuple[str, str | None], field: str) -> Iterator[_Found]:
-    """Give the entity, or what an INSERT holds, if it is on the wanted layer; layers = (wanted, parent's)."""
-    wanted, parent = layers
-    own = parent if parent is not None and entity.dxf.layer == "0" else entity.dxf.layer
+class _Scope(NamedTuple):
+    """What is looked for, and in which place: the model, or a block that is inserted in it."""
+
+    document: Document
+    layer: str
+    parent: str | None
+    """Layer of the INSERT: what a block holds on layer 0 is on it."""
+    place: Floats
+
+
+def _visible(entity: DXFGraphic, scope: _Scope, field: str) -> Iterator[_Found]:
+    """Give the entity, or what an INSERT holds, if it is on the wanted layer."""
+    own = scope.parent if scope.parent is not None and entity.dxf.layer == "0" else entity.dxf.layer
     if entity.dxftype() == "INSERT":
-        yield from _inserted(document, entity, (wanted, own), field)
-    elif own.casefold() == wanted.casefold():
-        yield _Found(entity, name_of(entity))
+        yield from _inserted(entity, scope._replace(parent=own), field)
+    elif own.casefold() == scope.layer.casefold():
+        yield _Found(entity, name_of(entity), scope.place)
 
 
-def _inserted(document: Document, insert: Any, layers: tuple[str, str], field: str) -> list[_Found]:
-    """Give what an INSERT shows on the wanted layer, in its place (failure mode A4)."""
+def _inserted(insert: Any, scope: _Scope, field: str) -> list[_Found]:
+    """Give what an INSERT shows on the wanted layer, in its place: any affine map, exactly (failure mode A4)."""
     block = insert.block()
     if block is None or block.block.is_xref or block.block.is_xref_overlay:
-        return _refuse_xref(insert, layers, field)
+        return _refuse_xref(insert, scope, field)
     name = f"{name_of(insert)} (block {insert.dxf.name})"
     found = [
-        _Found(inner.entity, f"{inner.entity.dxftype()} in {name}")
+        inner._replace(name=f"{inner.name} in {name}")
         for one in (insert.multi_insert() if insert.mcount > 1 else [insert])
-        for entity in _exploded(one)
-        for inner in _visible(document, entity, layers, field)
+        for entity in block
+        if entity.dxftype() != "ATTDEF"
+        for inner in _visible(entity, scope._replace(place=_matrix(one) @ scope.place), field)
     ]
     if found:
-        _refuse_skewed(document, insert, name, field)
-        _refuse_hidden(document, layers[1], field)
+        _refuse_collapsed(scope.document, insert, name, field)
+        _refuse_hidden(scope.document, scope.parent or "", field)
     return found
 
 
-def _exploded(insert: Any) -> list[DXFGraphic]:
-    """Give the block's entities in place; those that cannot be placed stay, for `_traced` to refuse."""
-    skipped: list[DXFGraphic] = []
-
-    def keep(entity: DXFGraphic, _reason: str) -> None:
-        skipped.append(entity)
-
-    placed = list(insert.virtual_entities(skipped_entity_callback=keep))
-    return [*placed, *skipped]
+def _matrix(insert: Any) -> Floats:
+    """Give where an INSERT puts its block: (4, 4) for rows from the left."""
+    return np.array(list(insert.matrix44()), float).reshape(4, 4)
 
 
-def _refuse_xref(insert: Any, layers: tuple[str, str], field: str) -> list[_Found]:
-    if layers[0].casefold() == layers[1].casefold():
+def _refuse_xref(insert: Any, scope: _Scope, field: str) -> list[_Found]:
+    if scope.layer.casefold() == (scope.parent or "").casefold():
         found = f"{name_of(insert)} refers to another drawing, or to no block"
         _refuse("BLOCK", field, found, "a curve in this file", "Bind the reference into the drawing.")
     return []
 
 
-def _refuse_skewed(document: Document, insert: Any, name: str, field: str) -> None:
+def _refuse_collapsed(document: Document, insert: Any, name: str, field: str) -> None:
     scale = [insert.dxf.get(axis, 1.0) for axis in ("xscale", "yscale", "zscale")]
-    if not insert.has_uniform_scaling:
+    if not all(np.isfinite(scale)) or 0.0 in scale:
         found = f"{name} has scales {scale[0]:g}, {scale[1]:g}, {scale[2]:g}"
-        _refuse("BLOCK", field, found, "one scale for all axes", "Explode the block in the drawing.")
+        _refuse("BLOCK", field, found, "finite scales that are not 0", "Explode the block in the drawing.")
     units = insert.block().units
     if units not in (0, document.header.get("$INSUNITS", 0)):
         found = f"{name} has units {units} of its own"
@@ -222,14 +215,17 @@ def _refuse_hidden(document: Document, name: str, field: str) -> None:
 
 def _traced(found: _Found, factor: float, field: str) -> Traced:
     """Turn an entity into shapes in space, mm."""
-    entity, name = found
+    entity, name, place = found
     trace = TRACERS.get(entity.dxftype())
     if trace is None or entity.dxf.get("invisible", 0):
         limit = f"visible {', '.join(sorted(TRACERS))}"
         way_out = "Move it to another layer, or convert it."
         raise Refused(code="E-DXF-ENTITY", field=field, found=name, limit=limit, way_out=way_out)
     with _guarded("E-DXF-ENTITY", field, name), np.errstate(all="ignore"):
-        drawn = [shape._replace(anchors=factor * shape.anchors) for shape in _located(trace, entity, field)]
+        drawn = [
+            shape._replace(anchors=factor * (shape.anchors @ place[:3, :3] + place[3, :3]))
+            for shape in _located(trace, entity, field)
+        ]
     return Traced(name, drawn, says_closed(entity))
 
 

@@ -11,14 +11,14 @@ from isomould.units import Number
 
 def _two_or_three(values: tuple[float, ...]) -> tuple[float, ...]:
     if len(values) not in (2, 3):
-        message = f"a point with {len(values)} coordinates; write [x, y], or [x, y, z] for a rail in space"
+        message = f"a point with {len(values)} coordinates; [x, y], or [x, y, z] for a rail in space"
         raise ValueError(message)
     return values
 
 
 def _all_alike(points: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], ...]:
     if len({len(point) for point in points}) > 1:
-        message = "some points have two coordinates, others three; write all in one way"
+        message = "some points have two coordinates, others three; all in one way"
         raise ValueError(message)
     return points
 

@@ -19,7 +19,7 @@ from isomould.curves.bspline import (
     segments,
 )
 from isomould.curves.curve import PlanarCurve, join_pieces
-from isomould.curves.dxf import Drawing, read_curve
+from isomould.curves.drawn import DxfSettings, RhinoSettings, read_drawn
 from isomould.curves.plane import Plane
 from isomould.curves.points import Points, refuse_spatial
 from isomould.curves.shapes import Draft
@@ -55,7 +55,7 @@ class _WithCoordinates(Settings):
         if isinstance(data, dict) and data.get("units") not in (None, "mm"):
             bare = [name for name in _LENGTHS if _is_bare(data.get(name))]
             if bare:
-                message = f"{bare[0]} is a bare number beside units = {data['units']!r}; write it with its unit"
+                message = f"{bare[0]} is a bare number beside units = {data['units']!r}; a text with its unit"
                 raise ValueError(message)
         return data
 
@@ -176,19 +176,6 @@ class PolylineSettings(_WithCoordinates):
     closed: Flag = False
 
 
-class DxfSettings(Settings):
-    """The one curve on a layer of a DXF file.
-
-    "flat": the drawing's x, y are the curve's own; "world": the drawing is the building, in space.
-    """
-
-    kind: Literal["dxf"]
-    file: str
-    layer: str
-    units: LengthUnit | None = None
-    drawn: Literal["flat", "world"] = "flat"
-
-
 CurveSettings = Annotated[
     ArcSettings
     | CircleSettings
@@ -199,7 +186,8 @@ CurveSettings = Annotated[
     | BsplineSettings
     | SplineSettings
     | PolylineSettings
-    | DxfSettings,
+    | DxfSettings
+    | RhinoSettings,
     Field(discriminator="kind"),
 ]
 
@@ -212,7 +200,7 @@ def build_curve(
     Parameters
     ----------
     base_dir
-        Folder that DXF file names are relative to.
+        Folder that the names of drawings are relative to.
     plane
         The rail's plane, needed for curves drawn in world coordinates only.
     field
@@ -241,8 +229,8 @@ def _draft(settings: CurveSettings, base_dir: Path, plane: Plane | None, field: 
             return _spline(settings, field)
         case PolylineSettings():
             return _polyline(settings, field)
-        case DxfSettings():
-            return read_curve(_drawing(settings, base_dir, plane, field), field)
+        case DxfSettings() | RhinoSettings():
+            return read_drawn(settings, base_dir, plane, field)
         case _:
             return _arch(settings, field)
 
@@ -334,19 +322,6 @@ def _polyline(settings: PolylineSettings, field: str) -> Draft:
     if bulges.size != edges:
         _refuse_count("bulges", bulges.size, edges, field)
     return Draft(shapes.polyline(points, bulges, settings.closed), settings.closed)
-
-
-def _drawing(settings: DxfSettings, base_dir: Path, plane: Plane | None, field: str) -> Drawing:
-    if settings.drawn == "world" and plane is None:
-        raise Refused(
-            code="E-DXF-PLANE",
-            field=f"{field}.drawn",
-            found='"world" for a curve without a plane',
-            limit="a plane to project on",
-            way_out='Give the plane, or draw the curve flat and set drawn = "flat".',
-        )
-    path = base_dir / settings.file
-    return Drawing(path, settings.layer, settings.units, plane if settings.drawn == "world" else None)
 
 
 def points_of(settings: BsplineSettings | SplineSettings | PolylineSettings, field: str) -> Floats:

@@ -65,8 +65,8 @@ def laid_flat(traced: list[Traced], plane: Plane | None, field: str) -> tuple[li
     Raises
     ------
     Refused
-        E-DXF-ENTITY for numbers that are not finite, E-DXF-PLANE for what leaves the plane by more than
-        1e-6 mm, E-DXF-CURVES for a curve that says it is closed and is not.
+        E-CURVE-NUMBER for numbers that are not finite, E-DRAWN-PLANE for what leaves the plane by more than
+        1e-6 mm, E-DRAWN-CURVES for a curve that says it is closed and is not.
     """
     refuse_wild(traced, field)
     ground = plane or _ground(traced)
@@ -121,7 +121,7 @@ def _refuse_wild(one: Traced, field: str) -> None:
     biggest = float(np.max(np.abs(np.concatenate(numbers)), initial=0.0)) if numbers else 0.0
     if not biggest < REMOTEST:
         found, limit = f"{one.name}: a number {biggest:g}", f"finite numbers below {REMOTEST:g} mm"
-        _refuse("ENTITY", field, found, limit, "Redraw it near the origin.")
+        raise Refused("E-CURVE-NUMBER", field, found, limit, "Draw it near the origin.")
 
 
 def _refuse_leaving(name: str, away: float, flat: bool, field: str) -> None:
@@ -144,4 +144,4 @@ def _refuse_nothing(strokes: list[Stroke[Piece]], field: str) -> None:
 
 
 def _refuse(what: str, field: str, found: str, limit: str, way_out: str) -> None:
-    raise Refused(code=f"E-DXF-{what}", field=field, found=found, limit=limit, way_out=way_out)
+    raise Refused(code=f"E-DRAWN-{what}", field=field, found=found, limit=limit, way_out=way_out)

@@ -6,13 +6,12 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves.chains import Stroke, chained
-from isomould.curves.dxf import Drawing, trace_layer
+from isomould.curves.drawn import DrawnSettings, DxfSettings, RhinoSettings, trace_drawn
 from isomould.curves.pieces import Line
 from isomould.curves.points import are_spatial
 from isomould.curves.settings import (
     BsplineSettings,
     CurveSettings,
-    DxfSettings,
     PolylineSettings,
     SplineSettings,
     bspline_segments,
@@ -26,7 +25,7 @@ from isomould.errors import Note, Refused
 
 
 def build_spatial_curve(settings: CurveSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
-    """Build the curve in space of a `curve` table: polyline, spline, bspline, or dxf drawn in the world.
+    """Build the curve in space of a `curve` table: polyline, spline, bspline, or drawn in the world.
 
     Raises
     ------
@@ -35,7 +34,7 @@ def build_spatial_curve(settings: CurveSettings, base_dir: Path, field: str) -> 
     OutputFault
         If a file cannot be read.
     """
-    if isinstance(settings, DxfSettings):
+    if isinstance(settings, DxfSettings | RhinoSettings):
         return _drawn(settings, base_dir, field)
     shapes, closed, notes = _shapes(settings, field)
     refuse_wild([Traced(settings.kind, shapes, closed)], field)
@@ -65,11 +64,10 @@ def _lines(points: Floats, closed: bool) -> list[Shape]:
     return [Shape(Line, path[k : k + 2]) for k in range(len(path) - 1)]
 
 
-def _drawn(settings: DxfSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
+def _drawn(settings: DrawnSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
     if settings.drawn != "world":
         _refuse_planar(f"{field}.drawn", f"a curve drawn {settings.drawn}")
-    drawing = Drawing(base_dir / settings.file, settings.layer, settings.units, None)
-    traced, remarks = trace_layer(drawing, field)
+    traced, remarks = trace_drawn(settings, base_dir, field)
     refuse_wild(traced, field)
     strokes = [Stroke(one.name, _pieces(one)) for one in traced]
     pieces, closed = chained([stroke for stroke in strokes if stroke.pieces], field)
@@ -87,7 +85,7 @@ def _refuse_planar(field: str, found: str) -> None:
         code="E-CURVE-PLANAR",
         field=field,
         found=found,
-        limit='a polyline, spline or bspline with points [x, y, z], or a dxf curve drawn = "world"',
+        limit='a polyline, spline or bspline with points [x, y, z], or a dxf or rhino curve drawn = "world"',
         way_out="Give it in space, or leave out rail.up and use surface.kind = 'moulding' with a plane.",
     )
 
@@ -99,5 +97,5 @@ def _refuse_bulges(settings: PolylineSettings, field: str) -> None:
             field=f"{field}.bulges",
             found="bulges in space",
             limit="straight edges",
-            way_out="Leave the bulges out, or draw the arcs in CAD and read them as dxf.",
+            way_out="Leave the bulges out, or draw the arcs in CAD and read them from its file.",
         )

@@ -14,7 +14,7 @@ _LONGEST = 120
 def _one_line(text: str) -> str:
     """Hold user text to one printable line in Unicode's composed form (failure mode A9)."""
     if not text.isprintable():
-        message = "control characters, line breaks and direction marks are not allowed here"
+        message = "must be text without control characters, line breaks and direction marks"
         raise ValueError(message)
     return unicodedata.normalize("NFC", text)
 
@@ -22,7 +22,7 @@ def _one_line(text: str) -> str:
 def _drawn_up(value: object) -> object:
     """Numbers are no dates: read as seconds since 1970, they would pass for one."""
     if isinstance(value, int | float):
-        message = f"{value!r} is not a date; write it as 2026-11-02"
+        message = f"{value!r} is not a date; a day such as 2026-11-02"
         raise ValueError(message)
     return value
 

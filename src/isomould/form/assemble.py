@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-import shapely
 
-from isomould.arrays import Bools, Floats
+from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import Plane
 from isomould.curves.space_curve import SpatialCurve
 from isomould.errors import Note, Refused
+from isomould.form.crossing import overhang_notes, refuse_crossing, refuse_crossing_parallels
 from isomould.form.division import Request, divide_curve, refuse_size
 from isomould.form.edge_offset import divide_for_edge_offset
 from isomould.form.frame import refuse_twist, spatial_rail
@@ -86,7 +86,7 @@ def make_form(
     refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    notes = (*_turning_notes(rail), *pole_notes, *_sagitta_notes(rail))
+    notes = (*_turning_notes(rail), *overhang_notes(surface.profile), *pole_notes, *_sagitta_notes(rail))
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
     if isinstance(rail, CurvePolygon):
@@ -140,40 +140,15 @@ def _refuse_deviation(polygon: CurvePolygon | SpatialPolygon, request: Request) 
 
 def _refuse_crossings(rail: CurvePolygon | SpatialPolygon, generatrix: CurvePolygon, surface: Surface) -> None:
     """Refuse rails, profiles and parallels that cross themselves (failure modes B6, C5); in space the profile only."""
-    _refuse_crossing(generatrix, "generatrix")
+    refuse_crossing(generatrix.vertices, generatrix.closed, "generatrix")
     if isinstance(rail, SpatialPolygon):
         return
-    _refuse_crossing(rail, "rail")
+    refuse_crossing(rail.vertices, rail.closed, "rail")
     frame = surface.rail
     axes = np.stack([frame.directions[0], frame.outward[0]])
     mitre, base = frame.A @ axes.T, frame.R @ axes.T
     parallels = base + np.multiply.outer(surface.profile.d, mitre)
-    simple = _is_simple(parallels, rail.closed)
-    if not simple.all():
-        raise Refused(
-            "E-SURFACE-CROSSING",
-            "generatrix.origin",
-            f"parallel {int(np.argmin(simple))} crosses itself: the surface passes through itself",
-            "parallels without crossings",
-            "Move the generatrix towards the outside, or widen the rail.",
-        )
-
-
-def _refuse_crossing(polygon: CurvePolygon, field: str) -> None:
-    if not _is_simple(polygon.vertices[None], polygon.closed).all():
-        raise Refused(
-            "E-CURVE-CROSSING",
-            f"{field}.curve",
-            "a polygon that crosses itself",
-            "none",
-            "Redraw the curve.",
-        )
-
-
-def _is_simple(lines: Floats, closed: bool) -> Bools:
-    """Whether polylines (k, n, 2) are free of crossings."""
-    rings = np.concatenate([lines, lines[:, :1]], axis=1) if closed else lines
-    return np.atleast_1d(shapely.is_simple(shapely.linestrings(rings)))
+    refuse_crossing_parallels(parallels, rail.closed)
 
 
 def _turning_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:

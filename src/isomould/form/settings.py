@@ -13,7 +13,7 @@ Inflections = Literal["nearest", "residual", "fit", "refuse"]
 
 def _at_least_one(value: int) -> int:
     if value < 1:
-        message = f"{value} must be at least 1"
+        message = "must be at least 1"
         raise ValueError(message)
     return value
 
@@ -23,7 +23,7 @@ PositiveCount = Annotated[Count, AfterValidator(_at_least_one)]
 
 def _acute(value: float) -> float:
     if abs(value) >= 90:
-        message = f"{value:g}° must lie between -90° and 90°"
+        message = "must lie between -90° and 90°"
         raise ValueError(message)
     return value
 
@@ -89,7 +89,7 @@ class GeneratrixDivide(Settings):
 def _refuse_two_ways(table: Settings, names: tuple[str, ...]) -> None:
     given = [name for name in names if getattr(table, name) is not None]
     if len(given) > 1:
-        message = f"{' and '.join(given)} exclude each other; keep one of them"
+        message = f"{' and '.join(given)} exclude each other; one of them alone"
         raise ValueError(message)
 
 

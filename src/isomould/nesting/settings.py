@@ -56,7 +56,7 @@ class StockSettings(Settings):
     @model_validator(mode="after")
     def _gap_holds_the_kerf(self) -> "StockSettings":
         if self.gap < self.kerf:
-            message = f"gap {self.gap:g} mm is less than the kerf {self.kerf:g} mm that it includes; widen the gap"
+            message = f"gap {self.gap:g} mm is too narrow; at least the kerf of {self.kerf:g} mm that it includes"
             raise ValueError(message)
         return self
 
@@ -64,7 +64,7 @@ class StockSettings(Settings):
     def _room_inside_the_trim(self) -> "StockSettings":
         for sheet in self.sheets:
             if 2 * self.trim >= min(sheet.width, sheet.height):
-                message = f"trim {self.trim:g} mm leaves nothing of sheet {sheet.name!r}; reduce the trim"
+                message = f"trim {self.trim:g} mm leaves nothing of sheet {sheet.name!r}; less than half of its sides"
                 raise ValueError(message)
         return self
 
@@ -72,7 +72,9 @@ class StockSettings(Settings):
     def _room_between_the_bar_trims(self) -> "StockSettings":
         for bar in self.bars:
             if 2 * self.bar_trim >= bar.length:
-                message = f"bar_trim {self.bar_trim:g} mm leaves nothing of a bar of {bar.length:g} mm; reduce it"
+                message = (
+                    f"bar_trim {self.bar_trim:g} mm leaves nothing of a bar; less than half of its {bar.length:g} mm"
+                )
                 raise ValueError(message)
         return self
 
@@ -80,7 +82,7 @@ class StockSettings(Settings):
     def _sheets_have_their_own_names(self) -> "StockSettings":
         names = [sheet.name for sheet in self.sheets]
         if len(set(names)) < len(names):
-            message = "two stock sheets have the same name; give every sheet a name of its own"
+            message = "two stock sheets have the same name; a name of its own for every sheet"
             raise ValueError(message)
         return self
 

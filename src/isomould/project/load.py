@@ -13,6 +13,7 @@ from pydantic_core import ErrorDetails
 
 from isomould.errors import OutputFault, Refused
 from isomould.project.schema import Project, ShapeTable
+from isomould.project.wording import word
 from isomould.settings import Settings
 
 _LARGEST_FILE = 1_000_000
@@ -149,13 +150,13 @@ def with_value(data: Mapping[str, Any], key: str, value: object) -> dict[str, An
 
 def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, str, str]:
     """Field, value found, limit and way out of one finding of pydantic's."""
-    path, siblings = _locate(detail["loc"], data)
+    path, siblings = _locate(detail["loc"], data, lost=detail["type"] == "missing")
     field = ".".join(path) or "project file"
-    value = detail["input"]
     if detail["type"] == "extra_forbidden":
-        near = difflib.get_close_matches(path[-1], _known_keys(path[:-1]), 1, 0.5)
+        known = _known_keys(path[:-1])
+        near = difflib.get_close_matches(path[-1], known, 1, 0.5)
         hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
-        return field, "unknown key", "the keys of this table", hint
+        return field, "unknown key", f"one of {', '.join(known)}", hint
     if detail["type"] == "missing":
         return (
             field,
@@ -163,19 +164,18 @@ def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, 
             "required",
             f"Add it to {'.'.join(path[:-1]) or 'the file'} ({', '.join(siblings) or 'empty'} given).",
         )
-    message = detail["msg"].removeprefix("Value error, ")
-    shown = "" if isinstance(value, dict | list) or value is None else f"{value!r}: "
-    return field, f"{shown}{message}", "see docs/project-file.md", "Change the value."
+    words = word(detail)
+    return field, words.found, words.limit, words.way_out
 
 
-def _locate(location: Sequence[str | int], data: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """Path of a finding without the names that pydantic gives to the members of unions; keys beside it."""
+def _locate(location: Sequence[str | int], data: Mapping[str, Any], lost: bool) -> tuple[list[str], list[str]]:
+    """Path of a finding, a lost key among them, without pydantic's names for members of unions; keys beside it."""
     path: list[str] = []
     place: Any = data
     siblings: list[str] = []
     for depth, part in enumerate(location):
         last = depth == len(location) - 1
-        here = isinstance(place, dict) and (part in place or last)
+        here = isinstance(place, dict) and (part in place or (last and lost))
         if here or (isinstance(part, int) and isinstance(place, list)):
             siblings = [str(key) for key in place] if isinstance(place, dict) else []
             path.append(str(part))

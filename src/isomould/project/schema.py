@@ -19,7 +19,7 @@ from isomould.form.settings import (
 from isomould.nesting.settings import StockSettings
 from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings
 from isomould.settings import Settings
-from isomould.units import Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
+from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 from isomould.writers.names import safe_name
 from isomould.writers.settings import DeliverSettings
 
@@ -109,10 +109,17 @@ def _distinct(shapes: tuple[ShapeTable, ...]) -> tuple[ShapeTable, ...]:
     return shapes
 
 
+def _known_schema(value: int) -> int:
+    if value != 1:
+        message = "must be 1, the schema that this version of isomould reads"
+        raise ValueError(message)
+    return value
+
+
 class Project(Settings):
     """A whole project file."""
 
-    schema_: Literal[1] = Field(alias="schema")
+    schema_: Annotated[Count, AfterValidator(_known_schema)] = Field(alias="schema")
     project: ProjectInfo
     rail: RailTable
     generatrix: GeneratrixTable
@@ -131,7 +138,7 @@ class Project(Settings):
     def _classes_fit_the_gaps(self) -> "Project":
         if self.tolerances.length > self.panels.gap / 2:
             message = (
-                f"tolerances.length = {self.tolerances.length:g} mm is more than half of panels.gap = "
+                f"tolerances.length = {self.tolerances.length:g} mm is too wide; at most half of panels.gap = "
                 f"{self.panels.gap:g} mm: parts of one class would close the gaps"
             )
             raise ValueError(message)

@@ -10,6 +10,7 @@ from isomould.verify.certificate import Certificate
 from isomould.verify.checks import (
     bars,
     classes,
+    crossing,
     drawings,
     manifest,
     nesting,
@@ -32,6 +33,7 @@ _GROUPS = (
     nodes,
     polygons,
     topology,
+    crossing,
     trimming,
     solids,
     nesting,

@@ -36,7 +36,7 @@ def candidate(target: Path, replace: bool = False) -> Generator[Path]:
     Raises
     ------
     Refused
-        If the target exists and may not be replaced, or another run writes it.
+        If the target exists, is not empty and may not be replaced, or another run writes it.
     OutputFault
         If the system refuses: no space, no permission; nothing is left behind.
     """
@@ -49,20 +49,21 @@ def candidate(target: Path, replace: bool = False) -> Generator[Path]:
         with locked(_beside(target, _LOCK)):
             _clear_leftovers(target)
             _check_target(target, replace)
-            yield from _written(target)
+            yield from _written(target, replace)
     except OSError as error:
         raise fault(target, error) from error
     finally:
         _remove_empty(missing)
 
 
-def _written(target: Path) -> Generator[Path]:
+def _written(target: Path, replace: bool) -> Generator[Path]:
     folder = _beside(target, f"{_PARTIAL}-{os.getpid()}")
     try:
         folder.mkdir()
         yield folder
         _check_complete(folder)
         sync_tree(folder)
+        _check_target(target, replace)  # once more: what came there in the meantime is not ours to remove
         _publish(folder, target)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
@@ -85,7 +86,7 @@ def _beside(target: Path, suffix: str) -> Path:
 
 
 def _check_target(target: Path, replace: bool) -> None:
-    if not os.path.lexists(target):
+    if not os.path.lexists(target) or _is_empty(target):
         return
     if not replace:
         raise _refused(target, "it exists", "a new folder", "Choose another with --out, or give --replace.")
@@ -93,6 +94,10 @@ def _check_target(target: Path, replace: bool) -> None:
     if faults:
         limit = "a complete delivery of isomould without other files"
         raise _refused(target, "; ".join(faults[:3]), limit, "Move these files away, or choose another folder.")
+
+
+def _is_empty(target: Path) -> bool:
+    return target.is_dir() and not target.is_symlink() and not any(target.iterdir())
 
 
 def _check_complete(folder: Path) -> None:
@@ -103,7 +108,7 @@ def _check_complete(folder: Path) -> None:
 
 
 def _publish(folder: Path, target: Path) -> None:
-    """Rename the candidate to the target; an old delivery steps aside and comes back if that fails."""
+    """Rename the candidate to the target; what was there steps aside and comes back if that fails."""
     aside = _beside(target, f"{_ASIDE}-{os.getpid()}")
     replaced = os.path.lexists(target)
     if replaced:

@@ -17,6 +17,9 @@ _LONGEST_PATH = 160
 def safe_name(text: str, field: str = "project.name") -> str:
     """Make a folder name of a project's name: small ASCII letters, digits and single hyphens.
 
+    Letters of other scripts have no ASCII letter to stand for them; a name of nothing else is written by the numbers
+    of its characters (Unicode), so that different names stay different folders.
+
     Raises
     ------
     Refused
@@ -24,17 +27,37 @@ def safe_name(text: str, field: str = "project.name") -> str:
 
     Examples
     --------
-    >>> safe_name("Barrel vault, Fig. 6"), safe_name("Südkuppel ../2")
-    ('barrel-vault-fig-6', 'sudkuppel-2')
+    >>> safe_name("Barrel vault, Fig. 6"), safe_name("Südkuppel ../2"), safe_name("日本")
+    ('barrel-vault-fig-6', 'sudkuppel-2', 'u65e5-u672c')
     """
     if any(unicodedata.category(character) in {"Cc", "Cs"} for character in text):
         raise _refused(field, repr(text), "printable text")
     plain = unicodedata.normalize("NFKD", text.casefold()).encode("ascii", "ignore").decode()
-    slug = re.sub(r"[^a-z0-9]+", "-", re.sub(r"['’]", "", plain)).strip("-")
+    slug = re.sub(r"[^a-z0-9]+", "-", re.sub(r"['’]", "", plain)).strip("-") or _by_numbers(text)
     if not slug or len(slug) > _LONGEST_NAME or slug in _RESERVED:
         limit = f"1 to {_LONGEST_NAME} letters and digits, and no device name of Windows"
         raise _refused(field, repr(slug or text), limit)
     return slug
+
+
+def _by_numbers(text: str) -> str:
+    return "-".join(f"u{ord(character):04x}" for character in unicodedata.normalize("NFC", text) if character.isalnum())
+
+
+def check_file_name(name: str) -> None:
+    """Refuse the name of one file or folder that some system cannot hold.
+
+    >>> check_file_name("CON.toml")
+    Traceback (most recent call last):
+    isomould.errors.Refused: E-NAME-01 NAME: 'CON.toml'. Limit: a name that Windows allows, at most 80 characters: no
+    device such as CON, none of <>:"|?*, no blank or dot at the end. Choose another name.
+    """
+    if len(name) > _LONGEST_NAME or not _is_portable(name):
+        limit = (
+            f"a name that Windows allows, at most {_LONGEST_NAME} characters: no device such as CON, none of "
+            '<>:"|?*, no blank or dot at the end'
+        )
+        raise Refused("E-NAME-01", "NAME", repr(name), limit, "Choose another name.")
 
 
 def check_names(paths: Iterable[str]) -> None:
