@@ -59,7 +59,7 @@ def _describe_rail(design: Design) -> dict[str, Any]:
 def _trim(design: Design) -> dict[str, Any]:
     """Planes by a point and the unit normal towards what was kept; nothing for a surface that was not trimmed."""
     asked = design.project.surface
-    cuts = [make_cut(table, "surface.trim") for table in asked.trim]
+    cuts = [make_cut(table, number) for number, table in enumerate(asked.trim)]
     planes = [{"origin": cut.origin.tolist(), "normal": cut.normal.tolist()} for cut in cuts]
     return {"trim": planes, "sill": asked.sill} if planes else {}
 

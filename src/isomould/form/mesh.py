@@ -59,9 +59,10 @@ class Mesh:
     faces : (k,) int, face_offsets : (f + 1,) int
         Corners of face f: `faces[face_offsets[f]:face_offsets[f + 1]]`.
     face_ij : (f, 2) int
-    rims : (k, 3) float
-        For the side after each corner the unit normal, towards what was kept, of the plane that cut it; zeros for
-        sides that no plane made.
+    rim_plane : (k,) int
+        For the side after each corner the number of the plane that cut it; −1 for sides that no plane made.
+    planes : (p, 2, 3) float
+        The cutting planes: a point (mm) and the unit normal towards what was kept.
     node_piece, edge_piece, face_piece : (n,), (e,), (f,) int
         0 for what is whole, else the piece of (i, j) that trimming left, counted from 1.
     shape : (int, int)
@@ -80,7 +81,8 @@ class Mesh:
     faces: Ints
     face_offsets: Ints
     face_ij: Ints
-    rims: Floats
+    rim_plane: Ints
+    planes: Floats
     node_piece: Ints
     edge_piece: Ints
     face_piece: Ints
@@ -107,7 +109,17 @@ class Mesh:
     @property
     def rimmed(self) -> Bools:
         """Whether a plane cut the side after each corner (k,)."""
-        return np.abs(self.rims).max(axis=1) > 0
+        return self.rim_plane >= 0
+
+    @property
+    def rims(self) -> Floats:
+        """Normals (k, 3) of the planes that cut the sides after the corners; zeros for sides that no plane made."""
+        return np.concatenate([self.planes[:, 1], np.zeros((1, 3))])[self.rim_plane]
+
+    @property
+    def sides(self) -> Ints:
+        """Nodes (k, 2) of the side after each corner, in the order of the face."""
+        return np.stack([self.faces, self.faces[self.ahead]], axis=-1)
 
     def per_corner(self, values: NDArray[T]) -> NDArray[T]:
         """Repeat values (f, …) of the faces for their corners (k, …)."""
@@ -149,7 +161,8 @@ def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool
         faces=np.moveaxis(quads, 0, -1).ravel(),
         face_offsets=np.arange(0, 4 * corner.size + 1, 4),
         face_ij=_ij(corner.ravel(), generatrices),
-        rims=np.zeros((4 * corner.size, 3)),
+        rim_plane=np.full(4 * corner.size, -1),
+        planes=np.zeros((0, 2, 3)),
         node_piece=np.zeros(number.size, dtype=np.int64),
         edge_piece=np.zeros(first.size, dtype=np.int64),
         face_piece=np.zeros(corner.size, dtype=np.int64),

@@ -47,9 +47,9 @@ class NodeArms:
 
     @property
     def slot_gap(self) -> Floats:
-        """Azimuth (s,) rad from slot to slot."""
+        """Azimuth (s,) rad from slot to slot; none at a corner where sills meet and nothing else."""
         azimuth = self.slotted.azimuth
-        return np.diff(azimuth, append=azimuth[0] + 2 * np.pi)
+        return np.diff(azimuth, append=azimuth[:1] + 2 * np.pi)
 
 
 @dataclass(frozen=True, eq=False)
