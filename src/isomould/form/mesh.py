@@ -4,7 +4,7 @@ Node (i, j) lies on parallel i and generatrix j. Generatrix edges run (i, j) →
 (i, j) → (i, j+1); faces are (i, j), (i, j+1), (i+1, j+1), (i+1, j): counter-clockwise from outside.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from isomould.arrays import Bools, Floats, Ints, T, read_only
 from isomould.form.surface import Surface, node_axes
+
+_NONE = read_only(np.empty(0, dtype=np.int64))
 
 
 class Family(IntEnum):
@@ -135,19 +137,28 @@ class Mesh:
 def make_mesh(surface: Surface) -> Mesh:
     """Flatten the product form into arrays of nodes, edges and faces."""
     closed = (surface.profile.closed, surface.rail.closed)
-    rows = np.flatnonzero(~surface.profile.gap)
-    return grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed, rows)
+    caps = surface.profile.caps
+    bare = np.flatnonzero(surface.profile.gap)
+    poles = bare, np.array(caps.rows, dtype=np.int64)
+    return _with_lids(grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed, poles), caps.lids)
 
 
-def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool], rows: Ints | None = None) -> Mesh:
-    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n); `rows` of panels or all."""
+def grid_mesh(
+    nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool], poles: tuple[Ints, Ints] = (_NONE, _NONE)
+) -> Mesh:
+    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n).
+
+    `poles` are rows without members, and rows with panels all the same.
+    """
     parallels, generatrices = nodes.shape[:2]
-    rows = np.arange(parallels - (not closed[0])) if rows is None else rows
+    rows = np.setdiff1d(np.arange(parallels - (not closed[0])), poles[0])
+    panelled = np.union1d(rows, poles[1])
     number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
     strips = generatrices - (not closed[1])
     above, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
-    up, along, corner = number[rows], number[:, :strips], number[rows, :strips]
-    quads = np.stack([corner, beside[rows, :strips], np.roll(above, -1, axis=1)[rows, :strips], above[rows, :strips]])
+    up, along, corner = number[rows], number[:, :strips], number[panelled, :strips]
+    ahead = np.roll(above, -1, axis=1)
+    quads = np.stack([corner, *(ring[panelled, :strips] for ring in (beside, ahead, above))])
     edges = [np.stack([up, above[rows]]), np.stack([along, beside[:, :strips]])]
     first = np.concatenate([up.ravel(), along.ravel()])
     return Mesh(
@@ -168,6 +179,22 @@ def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool
         face_piece=np.zeros(corner.size, dtype=np.int64),
         shape=(parallels, generatrices),
         closed=closed,
+    )
+
+
+def _with_lids(mesh: Mesh, lids: tuple[int, ...]) -> Mesh:
+    """Add the panels over the parallels `lids`; they count as row m − 1 over the last parallel, m over the first."""
+    m, n = mesh.shape
+    first = {m - 1: (m - 1, np.arange(n)), 0: (m, np.roll(np.arange(n)[::-1], 1))}
+    added = [first[lid] for lid in sorted(lids, reverse=True)]
+    corners = [(0 if row == m else row) * n + around for row, around in added]
+    return replace(
+        mesh,
+        faces=np.concatenate([mesh.faces, *corners]),
+        face_offsets=np.concatenate([mesh.face_offsets, mesh.face_offsets[-1] + n * np.arange(1, len(added) + 1)]),
+        face_ij=np.concatenate([mesh.face_ij, np.array([(row, 0) for row, _ in added], dtype=np.int64).reshape(-1, 2)]),
+        face_piece=np.concatenate([mesh.face_piece, np.zeros(len(added), dtype=np.int64)]),
+        rim_plane=np.concatenate([mesh.rim_plane, np.full(n * len(added), -1)]),
     )
 
 
