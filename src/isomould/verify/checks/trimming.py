@@ -3,8 +3,8 @@
 import numpy as np
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.grid import ends_of, grid_of, recomputed, regular_nodes
-from isomould.verify.rules import Floats, Ints, Measured, NotApplicable, Rule, faults, worst_of
+from isomould.verify.grid import Grid, ends_of, grid_of, recomputed, regular_nodes
+from isomould.verify.rules import Bools, Floats, Ints, Measured, NotApplicable, Rule, faults, worst_of
 
 LENGTH = 1e-6
 
@@ -19,12 +19,49 @@ def _heights(delivery: Delivery, points: Floats) -> Floats:
 
 
 def supports(delivery: Delivery) -> Measured:
-    """Distance of the new nodes from the nearest trimming plane."""
+    """Distance of the new nodes from the planes that made them: of every rim, one plane holds both its new ends."""
     mesh = delivery.mesh
-    new = np.setdiff1d(np.arange(len(mesh.nodes)), regular_nodes(mesh))
-    off = abs(_heights(delivery, mesh.nodes[new])).min(axis=0)
+    new = ~np.isin(np.arange(len(mesh.nodes)), regular_nodes(mesh))
+    height = abs(_heights(delivery, mesh.nodes))
+    rims = _rims(delivery)
+    snapped = np.where(height <= _reach(delivery), 0.0, np.inf)
+    off = np.where(new, height.min(axis=0), 0.0)
+    of_rim = np.where(new, height, snapped)[:, rims].max(axis=2).min(axis=0)
+    np.maximum.at(off, rims, of_rim[:, None])
     limit = max(LENGTH, 1e-12 * float(abs(mesh.nodes).max()))
-    return worst_of(off, mesh.node_location[new], limit=limit, none="no edge is cut")
+    return worst_of(off[new], mesh.node_location[new], limit=limit, none="no edge is cut")
+
+
+def _reach(delivery: Delivery) -> float:
+    """How far, mm, nodes may lie off a plane that they are a support of."""
+    return float(delivery.design.raw["limits"]["min_member_mm"])
+
+
+def _rims(delivery: Delivery) -> Ints:
+    """Give the sides (k, 2) of one face only that no member carries, sills apart, and that end no cap."""
+    mesh = delivery.mesh
+    following = np.roll(mesh.faces, -1)
+    following[mesh.face_offsets[1:] - 1] = mesh.faces[mesh.face_offsets[:-1]]
+    sides, times = np.unique(np.sort(np.stack([mesh.faces, following], axis=1), axis=1), axis=0, return_counts=True)
+    carried = {_pair(a, b) for a, b in mesh.edges[mesh.edge_family != "sill"].tolist()}
+    bare = [pair for pair in sides[times == 1].tolist() if tuple(pair) not in carried]
+    pairs = np.array(bare, dtype=np.int64).reshape(-1, 2)
+    return pairs[~_ends_of_caps(delivery, pairs)]
+
+
+def _ends_of_caps(delivery: Delivery, pairs: Ints) -> Bools:
+    """Whether sides (k, 2) lie along a radial edge of a cap at an open end of the rail."""
+    mesh, design = delivery.mesh, delivery.design
+    grid = grid_of(mesh, design)
+    found = np.zeros(len(pairs), dtype=np.bool_)
+    if design.rail.closed or not grid.caps:
+        return found
+    whole = recomputed(design, ends_of(design, mesh, grid))
+    starts, finishes = whole[list(grid.caps)], np.roll(whole, -1, axis=0)[list(grid.caps)]
+    for start, end in zip(starts[:, [0, -1]].reshape(-1, 3), finishes[:, [0, -1]].reshape(-1, 3), strict=True):
+        away = np.linalg.norm(np.cross(mesh.nodes[pairs] - start, end - start), axis=2) / np.linalg.norm(end - start)
+        found |= (away <= LENGTH).all(axis=1)
+    return found
 
 
 def extent(delivery: Delivery) -> Measured:
@@ -34,32 +71,29 @@ def extent(delivery: Delivery) -> Measured:
         raise NotApplicable("a spatial rail is not made of offset lines in one plane")
     grid = grid_of(mesh, design)
     height = _heights(delivery, recomputed(design, ends_of(design, mesh, grid))).min(axis=0)
-    reach, there = float(design.raw["limits"]["min_member_mm"]), grid.index >= 0
+    reach, there = _reach(delivery), grid.index >= 0
     lost, stray = (height > reach) & ~there, (height < -reach) & there
     problems = [f"node {i}, {j} is missing" for i, j in np.argwhere(lost)]
     problems += [f"node {i}, {j} lies beyond a plane" for i, j in np.argwhere(stray)]
-    return faults(height.size, problems + _missing_faces(mesh.face_ij, height, grid.closed, reach))
+    return faults(height.size, problems + _missing_faces(mesh.face_ij, height, grid, reach))
 
 
-def _missing_faces(face_ij: Ints, height: Floats, closed: tuple[bool, bool], reach: float) -> list[str]:
+def _missing_faces(face_ij: Ints, height: Floats, grid: Grid, reach: float) -> list[str]:
     """Name the faces that have a corner before all planes and are not in the mesh."""
-    rows, strips = (n - (not round_) for n, round_ in zip(height.shape, closed, strict=True))
-    corners = [np.roll(height, (-i, -j), axis=(0, 1))[:rows, :strips] for i, j in ((0, 0), (0, 1), (1, 1), (1, 0))]
-    wanted = np.max(corners, axis=0) > reach
-    wanted[tuple(face_ij.T)] = False
-    return [f"panel {i}, {j} is missing" for i, j in np.argwhere(wanted)]
+    corners = [np.roll(height, (-i, -j), axis=(0, 1)) for i, j in ((0, 0), (0, 1), (1, 1), (1, 0))]
+    wanted = (np.max(corners, axis=0) > reach) & grid.panelled[:, None]
+    wanted[:, height.shape[1] - (not grid.closed[1]) :] = False
+    lids = [[row, 0] for row, lid in zip(grid.lid_rows, grid.lids, strict=True) if height[lid].max() > reach]
+    there = set(map(tuple, face_ij.tolist()))
+    return [f"panel {i}, {j} is missing" for i, j in [*np.argwhere(wanted).tolist(), *lids] if (i, j) not in there]
 
 
 def sills(delivery: Delivery) -> Measured:
     """Sides that no member carries are cut sides: each has a sill if sills were asked for, and nothing else has."""
     mesh = delivery.mesh
-    here, following = mesh.faces, np.roll(mesh.faces, -1)
-    following[mesh.face_offsets[1:] - 1] = mesh.faces[mesh.face_offsets[:-1]]
-    reach = float(delivery.design.raw["limits"]["min_member_mm"])
-    on_plane = abs(_heights(delivery, mesh.nodes)) <= reach
+    on_plane = abs(_heights(delivery, mesh.nodes)) <= _reach(delivery)
     sill = mesh.edge_family == "sill"
-    bare = {_pair(a, b) for a, b in zip(here.tolist(), following.tolist(), strict=True)}
-    bare -= {_pair(a, b) for a, b in mesh.edges[~sill].tolist()}
+    bare = {_pair(a, b) for a, b in _rims(delivery).tolist()}
     carried = {_pair(a, b) for a, b in mesh.edges[sill].tolist()}
     wanted = bare if delivery.design.raw["sill"] else set[tuple[int, int]]()
     problems = [
