@@ -83,10 +83,10 @@ def make_form(
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
     surface = make_surface(frame, make_profile(generatrix, parallels, caps))
-    refuse_twist(frame, surface.profile)
+    seam_notes = refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    notes = (*_turning_notes(rail), *pole_notes, *_sagitta_notes(rail))
+    notes = (*_turning_notes(rail), *pole_notes, *_sagitta_notes(rail), *seam_notes)
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
     if isinstance(rail, CurvePolygon):

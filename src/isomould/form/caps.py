@@ -47,9 +47,9 @@ def find_caps(strips: Strips, polygon: CurvePolygon, rail: CurvePolygon, min_mem
 
 def cap_notes(caps: Caps, rail: CurvePolygon) -> tuple[Note, ...]:
     """Say what closes the poles."""
-    found = [f"{len(caps.rows)} rings of {len(rail.lengths)} panels"] if caps.rows else []
-    found += [f"{len(caps.lids)} panels of {len(rail.lengths)} sides"] if caps.lids else []
-    return (Note("W-SURFACE-CAP", _FIELD, f"{' and '.join(found)} close it at poles"),) if found else ()
+    rows, lids, count = len(caps.rows), len(caps.lids), len(rail.lengths)
+    text = f"panels without members between them close poles: {rows * count} trapezoids, {lids} of {count} sides"
+    return (Note("W-SURFACE-CAP", _FIELD, text),) if rows or lids else ()
 
 
 def _goes_round(rail: CurvePolygon) -> bool:
