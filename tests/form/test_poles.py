@@ -206,7 +206,7 @@ class TestPoles:
     @pytest.mark.parametrize(
         "broken",
         [
-            {"surface": {"pole": "cap"}},
+            {"surface": {"pole": "lid"}},
             {"surface": {"min_pole_angle_deg": 90}},
             {"generatrix": {"divide": {"phase": {"slope_deg": 90}}}},
         ],

@@ -29,7 +29,7 @@ def sill_tops(mesh: Mesh) -> Floats:
     The sills are the last edges of the mesh, in the order of its rims.
     """
     ends = mesh.nodes[mesh.edges[mesh.family == Family.SILL]]
-    return rim_tops(ends[:, 1] - ends[:, 0], mesh.rims[mesh.rimmed])
+    return rim_tops(ends[:, 1] - ends[:, 0], mesh.rims[mesh.rimmed][: len(ends)])
 
 
 def rim_tops(along: Floats, rims: Floats) -> Floats:

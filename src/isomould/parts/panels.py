@@ -86,8 +86,8 @@ class _Seats:
     """What panels see of the members under their sides: all (k,), vectors (k, 3).
 
     `origin`, `x` and `y` are the frame of the face; `ahead`, `behind` lead to the next and the last side of the face.
-    Bare sides have no seat: the radial ones of caps, and those that a plane cut; along these `upright` is the direction,
-    in the face's cross-section, of that plane's normal.
+    Bare sides have no seat: the radial ones of caps, and those that a plane cut. Along these `upright` is the
+    direction, in the face's cross-section, of that plane's normal.
     """
 
     corner: Floats

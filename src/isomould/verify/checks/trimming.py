@@ -19,17 +19,40 @@ def _heights(delivery: Delivery, points: Floats) -> Floats:
 
 
 def supports(delivery: Delivery) -> Measured:
-    """Distance of the new nodes from the planes that made them: of every rim, one plane holds both its new ends."""
+    """Distance of the new nodes from what made them: a plane, and a line of the uncut grid or another plane."""
     mesh = delivery.mesh
-    new = ~np.isin(np.arange(len(mesh.nodes)), regular_nodes(mesh))
-    height = abs(_heights(delivery, mesh.nodes))
-    rims = _rims(delivery)
-    snapped = np.where(height <= _reach(delivery), 0.0, np.inf)
-    off = np.where(new, height.min(axis=0), 0.0)
-    of_rim = np.where(new, height, snapped)[:, rims].max(axis=2).min(axis=0)
-    np.maximum.at(off, rims, of_rim[:, None])
+    new = np.setdiff1d(np.arange(len(mesh.nodes)), regular_nodes(mesh))
+    height = np.sort(abs(_heights(delivery, mesh.nodes[new])), axis=0)
+    second = height[1] if len(height) > 1 else np.full(len(new), np.inf)
+    off = np.maximum(height[0], np.minimum(second, _off_grid(delivery, new)))
     limit = max(LENGTH, 1e-12 * float(abs(mesh.nodes).max()))
-    return worst_of(off[new], mesh.node_location[new], limit=limit, none="no edge is cut")
+    return worst_of(off, mesh.node_location[new], limit=limit, none="no edge is cut")
+
+
+def _off_grid(delivery: Delivery, nodes: Ints) -> Floats:
+    """Least distance (k,) mm of nodes from the lines of the uncut faces around them."""
+    mesh, design = delivery.mesh, delivery.design
+    grid = grid_of(mesh, design)
+    whole = recomputed(design, ends_of(design, mesh, grid))
+    owner = np.repeat(np.arange(len(mesh.face_ij)), np.diff(mesh.face_offsets))
+    return np.array(
+        [_off_faces(mesh.nodes[node], mesh.face_ij[owner[mesh.faces == node]], grid, whole) for node in nodes]
+    )
+
+
+def _off_faces(point: Floats, faces: Ints, grid: Grid, whole: Floats) -> float:
+    rings = [_uncut(i, j, grid, whole) for i, j in faces.tolist()]
+    steps = [(ring - point, np.roll(ring, -1, axis=0) - ring) for ring in rings]
+    away = [np.linalg.norm(np.cross(near, along), axis=1) / np.linalg.norm(along, axis=1) for near, along in steps]
+    return float(min(off.min() for off in away))
+
+
+def _uncut(i: int, j: int, grid: Grid, whole: Floats) -> Floats:
+    """Corners (k, 3) of a face before it was cut."""
+    if i in grid.lid_rows:
+        return whole[grid.lids[grid.lid_rows.index(i)]]
+    m, n = grid.index.shape
+    return whole[[i, i, (i + 1) % m, (i + 1) % m], [j, (j + 1) % n, (j + 1) % n, j]]
 
 
 def _reach(delivery: Delivery) -> float:
@@ -112,7 +135,7 @@ def _names(delivery: Delivery, pair: tuple[int, int]) -> str:
 
 
 RULES = (
-    Rule("V17", "supports lie on a trimming plane", LENGTH, "mm", supports),
+    Rule("V17", "supports lie on a trimming plane, and on their member or another plane", LENGTH, "mm", supports),
     Rule("V17b", "the surface ends at the trimming planes", 0, "faults", extent),
     Rule("V17c", "sills stand where the planes cut panels", 0, "faults", sills),
 )
