@@ -47,9 +47,11 @@ def find_caps(strips: Strips, polygon: CurvePolygon, rail: CurvePolygon, min_mem
 
 def cap_notes(caps: Caps, rail: CurvePolygon) -> tuple[Note, ...]:
     """Say what closes the poles."""
-    rows, lids, count = len(caps.rows), len(caps.lids), len(rail.lengths)
-    text = f"panels without members between them close poles: {rows * count} trapezoids, {lids} of {count} sides"
-    return (Note("W-SURFACE-CAP", _FIELD, text),) if rows or lids else ()
+    count = len(rail.lengths)
+    found = [f"{len(caps.rows) * count} trapezoids"] if caps.rows else []
+    found += [f"{len(caps.lids)} of {count} sides"] if caps.lids else []
+    text = f"panels without members between them close poles: {' and '.join(found)}"
+    return (Note("W-SURFACE-CAP", _FIELD, text),) if found else ()
 
 
 def _goes_round(rail: CurvePolygon) -> bool:
