@@ -277,6 +277,23 @@ def test_a_plane_through_a_lid(tmp_path):
     assert status(cut, tmp_path, "V17b", lost_lid) == "fail"
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("pole", ["open", "cap"])
+def test_a_plane_through_the_feet_of_an_overhang(tmp_path, pole):
+    """On an open rail the radial ends of caps are neither rims nor members."""
+    plane = {"plane": {"origin": [124, -174, 4849], "normal": [0.05, 0.1, 1.0]}, "keep": [0, 0, 1]}
+    data = changed(
+        trimmed({**OVERHANG, "stock": {"max_blank_length": 20_000}}, plane),
+        surface={"pole": pole},
+        tolerances={"min_member": 100},
+        members={"min_clear": 0.1, "section": {"kind": "plate", "depth": 100, "thickness": 6}},
+        nodes={"diameter_step": 1},
+        panels={"seat_width": 50, "gap": 8, "thickness": 6},
+        deliver={"strips": []},
+    )
+    assert deliver(tmp_path, data).certificate.passed
+
+
 def test_a_design_that_knows_of_no_caps_is_found(built, tmp_path):
     folder = Path(shutil.copytree(built["torus"].folder, tmp_path / "delivered"))
     path = folder / "model" / "design.json"

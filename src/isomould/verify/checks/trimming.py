@@ -118,6 +118,8 @@ def sills(delivery: Delivery) -> Measured:
     sill = mesh.edge_family == "sill"
     bare = {_pair(a, b) for a, b in _rims(delivery).tolist()}
     carried = {_pair(a, b) for a, b in mesh.edges[sill].tolist()}
+    if not bare | carried:
+        raise NotApplicable("no panel is cut")
     wanted = bare if delivery.design.raw["sill"] else set[tuple[int, int]]()
     problems = [
         f"{_names(delivery, pair)}: not on one plane" for pair in bare if not on_plane[:, pair].all(axis=1).any()
