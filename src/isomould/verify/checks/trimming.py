@@ -118,7 +118,7 @@ def sills(delivery: Delivery) -> Measured:
     sill = mesh.edge_family == "sill"
     bare = {_pair(a, b) for a, b in _rims(delivery).tolist()}
     carried = {_pair(a, b) for a, b in mesh.edges[sill].tolist()}
-    if not bare | carried:
+    if not bare | carried and len(regular_nodes(mesh)) == len(mesh.nodes):
         raise NotApplicable("no panel is cut")
     wanted = bare if delivery.design.raw["sill"] else set[tuple[int, int]]()
     problems = [
