@@ -46,13 +46,13 @@ def compare_families(design: Design) -> tuple[Compared, ...]:
 
 def _planar(design: Design) -> RailInPlane:
     """Hold a design to what all families can be made of: a planar rail, no gap at a pole, nothing trimmed."""
-    whole = not design.form.surface.profile.gap.any() and not design.project.surface.trim
+    whole = design.form.surface.profile.whole and not design.project.surface.trim
     if isinstance(design.rail, RailInPlane) and whole:
         return design.rail
     raise Refused(
         "E-COMPARE",
         "surface",
-        "a rail in space, a gap at a pole or a trimmed surface",
+        "a rail in space, a gap or cap at a pole or a trimmed surface",
         "a planar rail and a whole surface, from which every mesh family can be made",
         "Compare without surface.trim, or with a planar rail.",
     )

@@ -87,11 +87,11 @@ def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
     asked = project.deliver.double_layer
     if asked is None:
         return None
-    if project.surface.trim or form.surface.profile.gap.any():
+    if project.surface.trim or not form.surface.profile.whole:
         raise Refused(
             "E-LAYER-WHOLE",
             "deliver.double_layer",
-            "a trimmed surface or one with a gap at a pole",
+            "a trimmed surface or one with a gap or cap at a pole",
             "a whole surface",
             "Leave double_layer out, or surface.trim.",
         )

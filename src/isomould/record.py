@@ -9,6 +9,7 @@ from isomould.curves.space_curve import SpatialCurve
 from isomould.design import Design
 from isomould.form.assemble import RailInSpace
 from isomould.form.polygon import CurvePolygon, Role
+from isomould.form.profile import Caps
 from isomould.form.spatial import SpatialPolygon
 from isomould.form.trim import make_cut
 from isomould.nesting.settings import StockSettings
@@ -24,6 +25,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         **_describe_rail(design),
         "generatrix": _describe_line(design.generatrix, design.form.generatrix),
         **_trim(design),
+        **_caps(design),
         "ends": project.rail.ends or ("mitred" if project.surface.kind == "edge-offset" else "square"),
         "member": _member(design),
         "node": _node(design),
@@ -59,9 +61,15 @@ def _describe_rail(design: Design) -> dict[str, Any]:
 def _trim(design: Design) -> dict[str, Any]:
     """Planes by a point and the unit normal towards what was kept; nothing for a surface that was not trimmed."""
     asked = design.project.surface
-    cuts = [make_cut(table, "surface.trim") for table in asked.trim]
+    cuts = [make_cut(table, number) for number, table in enumerate(asked.trim)]
     planes = [{"origin": cut.origin.tolist(), "normal": cut.normal.tolist()} for cut in cuts]
     return {"trim": planes, "sill": asked.sill} if planes else {}
+
+
+def _caps(design: Design) -> dict[str, Any]:
+    """Rows of panels without members beside them, and parallels under one panel; nothing if no pole is capped."""
+    caps = design.form.surface.profile.caps
+    return {"caps": {"rows": caps.rows, "lids": caps.lids}} if caps != Caps() else {}
 
 
 def _describe_line(curve: PlanarCurve | SpatialCurve, polygon: CurvePolygon | SpatialPolygon) -> dict[str, Any]:

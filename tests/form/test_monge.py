@@ -211,6 +211,33 @@ def test_a_closed_rail_in_space_whose_frame_closes_is_built():
     assert result.kit.mesh.closed == (False, True)
 
 
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(st.integers(6000, 9000), st.integers(-900, 900)), min_size=4, max_size=9))
+def test_every_mirror_image_of_itself_closes_its_frame(half):
+    """One mirror plane is enough: the turn once round is its own opposite."""
+    radius, level = np.array([*half, *half[::-1]], float).T
+    t = (np.arange(len(radius)) + 0.5) * 2 * np.pi / len(radius)
+    points = np.column_stack([radius * np.cos(t), radius * np.sin(t), level])
+    assert abs(surface_over(points, closed=True).rail.twist) < 1e-12
+
+
+def test_rounded_coordinates_close_within_the_limit_of_the_shop():
+    """Coordinates to 0.001 mm miss by a little; the gap is told, and it is how far the last panels are not plane."""
+    t = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    points = np.column_stack([9000 * np.cos(t), 7000 * np.sin(t), 600 * np.cos(2 * t)])
+    points[5] += [0.003, 0.004, 0.005]
+    rounded = np.round(points, 3)
+    result = design(changed(MONGE, rail={"curve": {"kind": "polyline", "points": rounded.tolist(), "closed": True}}))
+    (note,) = [note for note in result.notes if note.code == "W-RAIL-SEAM"]
+    gap = float(re.search(r"by ([\d.]+) mm", note.text)[1])
+    closed = np.concatenate([result.form.surface.V, result.form.surface.V[:, :1]], axis=1)
+    assert 1e-6 < off_plane(closed).max() <= gap < 0.01
+    assert off_plane(closed)[:, :-1].max() < 1e-9
+    points[5] += [0, 0, 1.0]
+    with pytest.raises(Refused, match=r"E-RAIL-TWIST.*mm.*Limit: a gap of 0.01 mm"):
+        design(changed(MONGE, rail={"curve": {"kind": "polyline", "points": points.tolist(), "closed": True}}))
+
+
 LINE = {"kind": "polyline", "points": POINTS}
 REFUSED = {
     "antiparallel edges": (

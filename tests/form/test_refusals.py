@@ -8,6 +8,13 @@ from museum import SMALL, VAULT, changed, design, sphere
 STRAIGHT = {"kind": "polyline", "points": [[0, 0], [8000, 0]]}
 KINKED = {"kind": "polyline", "points": [[0, 0], [4000, 2000], [8000, 0]]}
 NOISY = {"kind": "spline", "points": [[k * 500, 3 * (-1) ** k + k * (16 - k) * 10] for k in range(17)]}
+STADIUM = {
+    "kind": "polyline",
+    "units": "m",
+    "points": [[-20, -15], [20, -15], [20, 15], [-20, 15]],
+    "bulges": [0, 1, 0, 1],
+    "closed": True,
+}
 LOOP = {"kind": "bspline", "points": [[0, 0], [9000, 6000], [9000, 0], [0, 6000]], "closed": True}
 OMEGA = {
     "kind": "polyline",
@@ -25,7 +32,18 @@ CASES = {
         ["E-CURVE-FEW", "rail.divide"],
     ),
     "outside along the chord": (changed(SMALL, rail={"outside": [1, 0]}), ["E-CURVE-OUTSIDE", "rail.outside"]),
-    "outside word for an open rail": (changed(SMALL, rail={"outside": "outer"}), ["E-RAIL-OUTSIDE", "direction"]),
+    "outside word for an open rail": (
+        changed(SMALL, rail={"outside": "outer"}),
+        ["E-RAIL-OUTSIDE", "'outer', and the rail is open", "Set rail.outside to a direction"],
+    ),
+    "outside direction for a closed rail": (
+        changed(sphere(15, 30), rail={"outside": [0, 1]}),
+        ["E-RAIL-OUTSIDE", "the direction [0, 1], and the rail is closed", "Set rail.outside = 'outer'"],
+    ),
+    "straight parts off the lattice": (
+        changed(sphere(15, 30), rail={"curve": STADIUM, "divide": {"nodes": 25}}),
+        ["E-CURVE-BACK", "run backwards", "first_deg", "(0°, 180°)"],
+    ),
     "angle that does not divide the circle": (
         changed(sphere(15, 30), rail={"divide": {"angle_deg": 7}}),
         ["E-CURVE-ANGLE", "7° on a closed curve", "7.058824°"],

@@ -150,14 +150,6 @@ def test_two_planes_that_meet_outside_the_surface():
 REFUSED = {
     "nothing left": ([{"plane": {"z": "90 m"}, "keep": "above"}], "E-TRIM-EMPTY", "Move the plane"),
     "no side": ([{"plane": {"normal": [1, 0, 0]}, "keep": "above"}], "E-TRIM-SIDE", "direction"),
-    "planes that meet on a panel": (
-        [
-            {"plane": {"z": 0}, "keep": "above"},
-            {"plane": {"origin": [2000, 0, 0], "normal": [1, 0, 0.1]}, "keep": [-1, 0, 0]},
-        ],
-        "E-TRIM-CORNER",
-        "surface.trim[1]",
-    ),
 }  # fmt: skip
 
 

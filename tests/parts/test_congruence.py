@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from isomould.parts.congruence import classify
+from isomould.parts.congruence import classify, handedness, joined
 from isomould.parts.panels import _handedness
 
 
@@ -56,4 +56,39 @@ def test_mirrored_panels_never_share_a_letter(turn):
     panel = np.array([[0.0, 0.0], [1000.0, 0.0], [900.0, 500.0], [250.0, 500.0]])
     mirrored = (panel * [-1, 1])[::-1]
     both = np.stack([np.roll(panel, turn, axis=0), mirrored])
-    assert sorted(_handedness(both, np.full(2, 4), np.full(6, 0.1), flippable=False)) == ["L", "R"]
+    assert sorted(_handedness(both, np.full(2, 4), 0.1, flippable=False)) == ["L", "R"]
+
+
+def hand(gaps, rises, noise=0.0):
+    """Letter of a node of four arms at a tolerance of 1e-3; noise goes on every number."""
+    shake = noise * np.sin(7.0 * np.arange(16)).reshape(2, 2, 4)
+    own, turned = np.stack([gaps, rises]) + shake[0], np.stack([gaps[::-1], rises[::-1]]) + shake[1]
+    # Read the other way round, the gap after an arm belongs to the arm that follows.
+    turned[0] = np.roll(turned[0], -1)
+    both = [np.stack([np.roll(one, -k, axis=1).ravel() for k in range(4)])[None] for one in (own, turned)]
+    labels = np.zeros((1, 4, 1), dtype=np.int64)
+    order = np.append(np.arange(8).reshape(2, 4).T.ravel(), 8)
+    return handedness((both[0], labels), (both[1], labels), np.full(8, 1e-3), order)[0]
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("noise", [0.0, 3e-5, -3e-5, 2e-4, -2e-4])
+def test_noise_below_the_tolerance_decides_no_letter(turn, noise):
+    """All gaps are equal but for noise: what tells the node from its mirror image are its elevations."""
+    gaps, rises = np.full(4, np.pi / 2), np.roll([0.1, 0.2, 0.3, 0.5], turn)
+    assert hand(gaps, rises, noise) == hand(gaps, np.array([0.1, 0.2, 0.3, 0.5])) in ("L", "R")
+    assert {hand(gaps, rises, noise), hand(gaps, rises[::-1], noise)} == {"L", "R"}
+
+
+def test_a_node_within_the_tolerance_of_its_mirror_image_has_no_hand():
+    assert hand(np.full(4, np.pi / 2), np.array([0.1, 0.2, 0.3, 0.2 + 9e-4])) == "none"
+    assert hand(np.full(4, np.pi / 2), np.array([0.1, 0.2, 0.3, 0.2 + 3e-3])) in ("L", "R")
+
+
+def test_groups_are_joined_in_the_order_of_their_first_instances():
+    rows = [np.array([1, 3]), np.array([0, 2, 4])]
+    parts = [classify(*singles(values), np.array([0.1])) for values in ([5.0, 6.0], [7.0, 8.0, 7.05])]
+    both = joined(rows, parts)
+    assert both.of.tolist() == [0, 1, 2, 3, 0]
+    assert both.representative.tolist() == [0, 1, 2, 3]
+    assert both.deviation[:, 0] == pytest.approx([0, 0, 0, 0, 0.05])

@@ -18,10 +18,15 @@ from museum import dome, trimmed, write_project
 BY_ID = {rule.id: rule for rule in RULES}
 
 
+GROUND = {"plane": {"z": 0}, "keep": "above"}
+GABLE = {"plane": {"origin": [2000, 0, 0], "normal": [1, 0, 0.1]}, "keep": [-1, 0, 0]}
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
+    """A dome on the ground that a gable cuts: the two planes meet on two panels."""
     folder = tmp_path_factory.mktemp("trimmed")
-    project = write_project(folder / "dome.toml", trimmed(dome(5.2, nodes=6)))
+    project = write_project(folder / "dome.toml", trimmed(dome(5.2, nodes=6), GROUND, GABLE))
     return isomould.build(project, folder / "dome", run=isomould.Run(effort="quick", jobs=1)).folder
 
 
@@ -57,7 +62,14 @@ def test_schedules_of_trimmed_panels_and_sills(built):
     ]
     assert lengths == pytest.approx([float(row["cut_length_mm"]) for row in sills], abs=2e-3)
     supports = [row for row in rows(built, "nodes") if row["kind"] == "support"]
-    assert {(row["valence"], row["slots"]) for row in supports} <= {("3", "1"), ("4", "2"), ("5", "3"), ("4", "3")}
+    assert {(row["valence"], row["slots"]) for row in supports} <= {
+        ("3", "1"),
+        ("4", "2"),
+        ("5", "3"),
+        ("4", "3"),
+        ("2", "0"),
+    }
+    assert ("2", "0") in {(row["valence"], row["slots"]) for row in supports}
     locations = {row["location"] for row in rows(built, "member_instances")}
     assert {"MS-000", "MS-001"} < locations
     assert any(row["location"].endswith("-A") for row in rows(built, "panel_instances"))
@@ -98,6 +110,22 @@ def support(arrays):
     return next(k for k, name in enumerate(arrays["node_location"]) if name.endswith("-A"))
 
 
+def corner(arrays):
+    """The node where two sills meet and nothing else."""
+    arms = np.zeros((len(arrays["nodes"]), 2), dtype=int)
+    np.add.at(arms, (arrays["edges"], (arrays["edge_family"] == "sill").astype(int)[:, None]), 1)
+    return int(np.flatnonzero((arms == [0, 2]).all(axis=1))[0])
+
+
+def slide_corner(arrays):
+    """Along a rim: it stays in its panel and on one plane."""
+    node = corner(arrays)
+    edge = np.flatnonzero((arrays["edges"] == node).any(axis=1))[0]
+    other = arrays["edges"][edge].sum() - node
+    along = arrays["nodes"][other] - arrays["nodes"][node]
+    arrays["nodes"][node] += 0.01 * along / np.linalg.norm(along)
+
+
 def lift(arrays):
     arrays["nodes"][support(arrays)] += [0.0, 0.0, 0.01]
 
@@ -124,16 +152,19 @@ def swap_cut_faces(arrays):
 
 
 def drop_face(arrays):
+    """A whole one."""
+    lost = next(k for k, name in enumerate(arrays["face_location"]) if not name.endswith("-A"))
     sizes = np.diff(arrays["face_offsets"])
-    arrays["faces"] = arrays["faces"][sizes[0] :]
-    arrays["face_offsets"] = np.concatenate([[0], np.cumsum(sizes[1:])])
+    arrays["faces"] = arrays["faces"][np.repeat(np.arange(len(sizes)), sizes) != lost]
+    arrays["face_offsets"] = np.concatenate([[0], np.cumsum(np.delete(sizes, lost))])
     for name in ("face_ij", "face_mark", "face_location"):
-        arrays[name] = arrays[name][1:]
+        arrays[name] = np.delete(arrays[name], lost, axis=0)
 
 
 MESH_FAULTS = {
     "support off the plane": ("V17", lift),
-    "support off its member": ("V15", slide),
+    "corner off one of its planes": ("V17", slide_corner),
+    "support off its member": ("V17", slide),
     "sill forgotten": ("V17c", forget_sill),
     "axis out of the member's plane": ("V6", twist),
     "cut panels swapped": ("V43", swap_cut_faces),

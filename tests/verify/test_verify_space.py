@@ -13,11 +13,12 @@ from museum import MONGE, changed, write_project
 RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES)
 T = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 RING = np.column_stack([5000 * np.cos(T), 4600 * np.sin(T), 300 * np.cos(2 * T)])
+RING[5] += [0.002, 0.004, 0.003]
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """An open vault and a closed ring whose frame closes, with all their files."""
+    """An open vault and a closed ring whose frame closes as far as a shop can tell, with all their files."""
     folder = tmp_path_factory.mktemp("space")
     ring = {"curve": {"kind": "polyline", "points": RING.tolist(), "closed": True}}
     arc = {"curve": {"kind": "polyline", "points": MONGE["rail"]["curve"]["points"][:5]}}
@@ -99,5 +100,15 @@ def test_a_vertex_off_its_curve_is_found(delivery):
 
 def test_a_frame_that_does_not_close_is_found(ring):
     assert status(RULES, "V10", ring).status == "pass"
+    assert 1e-6 < status(RULES, "V10", ring).worst < 0.01
     moved = replaced(ring.design.rail.vertices, 3, np.array([0, 1, 0.5]))
     assert status(RULES, "V10", with_rail(ring, vertices=moved)).status == "fail"
+
+
+def test_the_gap_of_a_ring_allows_its_last_strip_no_more_than_it_explains(ring):
+    worst = status(RULES, "V1", ring)
+    assert 1e-6 < worst.worst <= ring.seam[0] < worst.limit < 0.01
+    for rule in ("V2", "V5", "V6", "V16"):
+        assert status(RULES, rule, ring).status == "pass"
+    moved = replaced(ring.mesh.nodes, 7, np.array([0.01, 0.01, -0.01]))
+    assert status(RULES, "V1", spoilt(ring, "mesh", nodes=moved)).status == "fail"

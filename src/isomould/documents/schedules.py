@@ -198,7 +198,8 @@ def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, f
 
 def _panels(kit: Kit, settings: PanelSettings) -> Columns:
     panels = kit.panels
-    whole = [not piece for piece in kit.mesh.face_piece[panels.classes.representative]]
+    first = panels.classes.representative
+    whole = ((kit.mesh.face_piece == 0) & (kit.mesh.sizes == 4))[first].tolist()
     size = np.array([np.ptp(outline, axis=0) for outline in panels.outlines])
     areas = np.array([area(outline) for outline in panels.outlines]) / 1e6
     measures = [_measures(outline) if plain else {} for plain, outline in zip(whole, panels.outlines, strict=True)]
@@ -222,7 +223,7 @@ _MEASURES = (
     *("diagonal_1_mm", "diagonal_2_mm", "height_mm"),
     *(f"angle_{number}_deg" for number in range(1, 5)),
 )
-"""What is scheduled of whole panels; trimmed ones have their outline instead."""
+"""What is scheduled of whole quadrilaterals; trimmed panels and lids have their outline instead."""
 
 
 def _measures(outline: Floats) -> dict[str, float]:

@@ -12,11 +12,11 @@ from isomould.curves.space_curve import SpatialCurve
 from isomould.errors import Note, Refused
 from isomould.form.crossing import overhang_notes, refuse_crossing, refuse_crossing_parallels
 from isomould.form.division import Request, divide_curve, refuse_size
-from isomould.form.edge_offset import divide_for_edge_offset
+from isomould.form.edge_offset import Divided, divide_for_edge_offset
 from isomould.form.frame import refuse_twist, spatial_rail
 from isomould.form.lattice import half_width
 from isomould.form.polygon import FLAT, CurvePolygon
-from isomould.form.profile import make_profile
+from isomould.form.profile import Caps, make_profile
 from isomould.form.rail import Ends, Rail, planar_rail
 from isomould.form.settings import SurfaceSettings
 from isomould.form.spatial import SpatialPolygon, divide_in_space
@@ -78,15 +78,15 @@ def make_form(
     """
     rail_request, generatrix_request = requests
     rail, frame = _make_rail(drawn, rail_request, settings)
-    generatrix, parallels, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
+    generatrix, parallels, caps, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
     refuse_size(len(rail.lengths) * int(np.count_nonzero(~generatrix.gap)), rail_request.limits)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
-    surface = make_surface(frame, make_profile(generatrix, parallels))
-    refuse_twist(frame, surface.profile)
+    surface = make_surface(frame, make_profile(generatrix, parallels, caps))
+    seam_notes = refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    notes = (*_turning_notes(rail), *overhang_notes(surface.profile), *pole_notes, *_sagitta_notes(rail))
+    notes = (*_turning_notes(rail), *overhang_notes(surface.profile), *pole_notes, *_sagitta_notes(rail), *seam_notes)
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
     if isinstance(rail, CurvePolygon):
@@ -108,10 +108,10 @@ def _make_rail(
 
 def _divide_generatrix(
     curve: PlanarCurve, rail: CurvePolygon | SpatialPolygon, request: Request, settings: SurfaceSettings
-) -> tuple[CurvePolygon, Floats | None, tuple[Note, ...]]:
+) -> Divided:
     if settings.kind != "edge-offset" or isinstance(rail, SpatialPolygon):
-        return divide_curve(curve, request), None, ()
-    return divide_for_edge_offset(curve, rail.angle or 0.0, settings, request)
+        return Divided(divide_curve(curve, request), None, Caps(), ())
+    return divide_for_edge_offset(curve, rail, settings, request)
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:

@@ -27,7 +27,7 @@ def open_polygon(curve: PlanarCurve, turns: Spans, edges: Edges, min_end: float,
     keep[[0, -1]] = polygon.lengths[[0, -1]] >= min_end
     if not keep.all() and min_end > 0:
         return open_polygon(curve, turns, edges.take(np.flatnonzero(keep)), min_end, field)
-    return _forward(polygon, field)
+    return _forward(curve, polygon, field)
 
 
 def end_points(curve: PlanarCurve, turns: Spans) -> Floats:
@@ -52,7 +52,7 @@ def closed_polygon(curve: PlanarCurve, edges: Edges, full: float, field: str) ->
     vertices = joints(around)
     turning = np.diff(direction)
     polygon = CurvePolygon(vertices, edges, turning, closed=True, deviation=curve_distance(curve, vertices))
-    return _forward(polygon, field)
+    return _forward(curve, polygon, field)
 
 
 def split_straights(curve: PlanarCurve, polygon: CurvePolygon, max_edge: float | None) -> CurvePolygon:
@@ -88,7 +88,7 @@ def _refuse_few(count: int, least: int, field: str) -> None:
         )
 
 
-def _forward(polygon: CurvePolygon, field: str) -> CurvePolygon:
+def _forward(curve: PlanarCurve, polygon: CurvePolygon, field: str) -> CurvePolygon:
     """Refuse polygons with an edge that runs backwards."""
     row = int(np.argmin(polygon.lengths))
     if polygon.lengths[row] <= 0:
@@ -98,6 +98,20 @@ def _forward(polygon: CurvePolygon, field: str) -> CurvePolygon:
             f"{field}.divide",
             f"edge {row} at ({x:.3f}, {y:.3f}) mm would be {polygon.lengths[row]:.3f} mm long and run backwards",
             "edges that run forwards",
-            "Choose a smaller turning angle, or smooth the curve near its inflections.",
+            _way_forward(curve, polygon, field),
         )
     return polygon
+
+
+def _way_forward(curve: PlanarCurve, polygon: CurvePolygon, field: str) -> str:
+    """Advise what keeps edges from running back: straight parts need a direction of the lattice to keep their place."""
+    rows = np.flatnonzero([role is Role.STRAIGHT for role in polygon.edges.role])
+    along = curve.derivative(polygon.edges.piece[rows], polygon.edges.parameter[rows])
+    own = np.arctan2(along[:, 1], along[:, 0])
+    if np.abs(np.sin(own - polygon.edges.direction[rows])).max(initial=0.0) <= _SETTLED:
+        return "Choose a smaller turning angle, or smooth the curve near its inflections."
+    every = ", ".join(f"{degrees:g}°" for degrees in np.unique(np.round(np.degrees(own) % 360, 4) % 360).tolist())
+    return (
+        f"Set {field}.divide.first_deg and the number of nodes so that straight parts have a direction of the lattice "
+        f"({every}): the edges along them lean, and run into their neighbours."
+    )

@@ -1,6 +1,7 @@
 """The slopes of edge offset meshes on a generatrix (paper §3.6, §4.3, geometry §5)."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,27 +10,38 @@ from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans, arcs
 from isomould.errors import Note, Refused
 from isomould.form.arc_lattices import shared_lattices
+from isomould.form.caps import cap_notes, find_caps
 from isomould.form.closing import open_polygon, split_straights
 from isomould.form.division import Request, from_direction, refuse_not_simple, refuse_straight, smooth_spans
 from isomould.form.lattice import KoebeLattice, half_width
 from isomould.form.phase import choose_lattice
-from isomould.form.poles import chain, strips_between_poles
+from isomould.form.poles import Strips, chain, strips_between_poles
 from isomould.form.polygon import FLAT, CurvePolygon, joints
+from isomould.form.profile import Caps
 from isomould.form.settings import GeneratrixDivide, SlopePhase, SurfaceSettings
 from isomould.form.tangents import split_at_inflections, tangent_edges
 
 
+class Divided(NamedTuple):
+    """A generatrix divided for an edge offset mesh: latitudes λ (n,) rad of its vertices, and what closes poles."""
+
+    polygon: CurvePolygon
+    parallels: Floats | None
+    caps: Caps
+    notes: tuple[Note, ...]
+
+
 def divide_for_edge_offset(
-    curve: PlanarCurve, turning: float, settings: SurfaceSettings, request: Request
-) -> tuple[CurvePolygon, Floats, tuple[Note, ...]]:
+    curve: PlanarCurve, rail: CurvePolygon, settings: SurfaceSettings, request: Request
+) -> Divided:
     """Divide a generatrix into the slopes of an edge offset mesh (paper §4.3, geometry §5).
 
     Parameters
     ----------
     curve
         Generatrix in coordinates (d, z), its outside to the right.
-    turning
-        The rail's constant |α|, rad.
+    rail
+        The divided rail, with one turning angle |α|.
     settings
         How near the normal may come to the rail's axis, and what becomes of the poles.
     request
@@ -37,22 +49,19 @@ def divide_for_edge_offset(
 
     Returns
     -------
-    polygon
-        Open, with a gap at every pole that the generatrix passes.
-    parallels : (n,) float, rad
-        Latitudes λ of its vertices on the Koebe mesh.
-    notes
-        What was left out at poles.
+    The polygon is open, with a gap at every pole that the generatrix passes; the notes say what was left out there.
     """
+    turning, limits = rail.angle or 0.0, request.limits
     _refuse_way(request)
     turns = _upright(curve, request.field)
     refuse_straight(arcs(turns), request.field)
-    strips, cut = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
-    if not strips or (cut and settings.pole == "refuse"):
-        _refuse_pole(curve, turns, strips, turning, settings, request)
-    divided = [_divide_strip(curve, strip, turning, request) for strip in strips]
+    strips = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
+    if not strips.spans or (settings.pole == "refuse" and not strips.whole):
+        _refuse_pole(curve, turns, strips.spans, turning, settings, request)
+    divided = [_divide_strip(curve, strip, turning, request) for strip in strips.spans]
     polygon, parallels = chain([strip for strip, _ in divided]), np.concatenate([own for _, own in divided])
-    return polygon, parallels, _pole_notes(len(strips), settings) if cut else ()
+    caps = find_caps(strips, polygon, rail, limits.min_member) if settings.pole == "cap" else Caps()
+    return Divided(polygon, parallels, caps, (*_pole_notes(strips, settings), *cap_notes(caps, rail)))
 
 
 def edge_offset_residual(latitude: Floats, turning: float) -> Floats:
@@ -125,8 +134,11 @@ def _refuse_way(request: Request) -> None:
         )
 
 
-def _pole_notes(strips: int, settings: SurfaceSettings) -> tuple[Note, ...]:
-    text = f"nothing is built nearer than {settings.min_pole_angle_deg:g}° to a pole: {strips} strips with open ends"
+def _pole_notes(strips: Strips, settings: SurfaceSettings) -> tuple[Note, ...]:
+    if strips.whole or settings.pole == "cap":
+        return ()
+    text = f"nothing is built nearer than {settings.min_pole_angle_deg:g}° to a pole"
+    text += f": {len(strips.spans)} strips with open ends"
     return (Note("W-GENERATRIX-POLE", "surface.pole", text),)
 
 
@@ -158,7 +170,8 @@ def _refuse_pole(
         f"its normal {_reach(turns)}, a pole that an edge offset mesh never reaches"
         + "".join(_forecast(curve, strip, turning, limit, request) for strip in strips[:1]),
         f"at least surface.min_pole_angle_deg = {settings.min_pole_angle_deg:g}°",
-        f"Cut the generatrix where its normal's latitude is {limit:g}°, or leave a gap there: surface.pole = 'open'.",
+        f"Cut the generatrix where its normal's latitude is {limit:g}°, or leave a gap there: "
+        "surface.pole = 'open'; 'cap' closes it with flat panels.",
     )
 
 

@@ -5,15 +5,20 @@ from itertools import pairwise
 import numpy as np
 
 from isomould.arrays import Floats
-from isomould.errors import Refused
+from isomould.errors import Note, Refused
 from isomould.form.profile import Profile
 from isomould.form.rail import Rail
 from isomould.form.spatial import SpatialPolygon
 
 _UPRIGHT = 1e-6
 """Sine of the smallest angle between the first edge and `up`."""
-CLOSES = 1e-6
-"""Largest gap, mm, of a frame that closes: it is how far the last panels would leave their planes."""
+CLOSES = 0.01
+"""Largest gap, mm, of a frame that closes (failure mode B12): as far the panels of the last strip leave their planes.
+
+It is there for rails that close as they were thought but whose coordinates are rounded.
+"""
+_EXACT = 1e-6
+"""Gap, mm, from which it is told."""
 
 
 def spatial_rail(polygon: SpatialPolygon, up: Floats) -> Rail:
@@ -71,8 +76,8 @@ def carry_frame(along: Floats, first: Floats, *, closed: bool) -> tuple[Floats, 
     return carried[:, 0], carried[:, 1]
 
 
-def refuse_twist(rail: Rail, profile: Profile) -> None:
-    """Refuse closed rails whose frame does not close (failure mode B12): the twist is never spread.
+def refuse_twist(rail: Rail, profile: Profile) -> tuple[Note, ...]:
+    """Refuse closed rails whose frame does not close (failure mode B12), or tell its gap: the twist is never spread.
 
     The gap is the largest distance, mm, between a profile vertex and itself carried once round.
     """
@@ -85,8 +90,11 @@ def refuse_twist(rail: Rail, profile: Profile) -> None:
             f"carried once round this closed rail, the generatrix comes back turned by {np.degrees(rail.twist):.6g}°: "
             f"a gap of {gap:.6g} mm, {reach:.6g} mm from the rail",
             f"a gap of {CLOSES:g} mm; spreading the turn over the nodes would bend the panels",
-            "Open the rail at a seam (closed = false), or draw it in one plane: there every frame closes.",
+            "Open the rail at a seam (closed = false), or draw it in one plane or as its own mirror image: there every "
+            "frame closes.",
         )
+    text = f"the frame of the closed rail misses itself by {gap:.6f} mm: as far panels of the last strip are not plane"
+    return (Note("W-RAIL-SEAM", "rail.curve", text),) if gap > _EXACT else ()
 
 
 def _first_frame(along: Floats, up: Floats) -> Floats:

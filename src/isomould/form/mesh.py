@@ -4,7 +4,7 @@ Node (i, j) lies on parallel i and generatrix j. Generatrix edges run (i, j) →
 (i, j) → (i, j+1); faces are (i, j), (i, j+1), (i+1, j+1), (i+1, j): counter-clockwise from outside.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from isomould.arrays import Bools, Floats, Ints, T, read_only
 from isomould.form.surface import Surface, node_axes
+
+_NONE = read_only(np.empty(0, dtype=np.int64))
 
 
 class Family(IntEnum):
@@ -59,9 +61,10 @@ class Mesh:
     faces : (k,) int, face_offsets : (f + 1,) int
         Corners of face f: `faces[face_offsets[f]:face_offsets[f + 1]]`.
     face_ij : (f, 2) int
-    rims : (k, 3) float
-        For the side after each corner the unit normal, towards what was kept, of the plane that cut it; zeros for
-        sides that no plane made.
+    rim_plane : (k,) int
+        For the side after each corner the number of the plane that cut it; −1 for sides that no plane made.
+    planes : (p, 2, 3) float
+        The cutting planes: a point (mm) and the unit normal towards what was kept.
     node_piece, edge_piece, face_piece : (n,), (e,), (f,) int
         0 for what is whole, else the piece of (i, j) that trimming left, counted from 1.
     shape : (int, int)
@@ -80,7 +83,8 @@ class Mesh:
     faces: Ints
     face_offsets: Ints
     face_ij: Ints
-    rims: Floats
+    rim_plane: Ints
+    planes: Floats
     node_piece: Ints
     edge_piece: Ints
     face_piece: Ints
@@ -107,7 +111,17 @@ class Mesh:
     @property
     def rimmed(self) -> Bools:
         """Whether a plane cut the side after each corner (k,)."""
-        return np.abs(self.rims).max(axis=1) > 0
+        return self.rim_plane >= 0
+
+    @property
+    def rims(self) -> Floats:
+        """Normals (k, 3) of the planes that cut the sides after the corners; zeros for sides that no plane made."""
+        return np.concatenate([self.planes[:, 1], np.zeros((1, 3))])[self.rim_plane]
+
+    @property
+    def sides(self) -> Ints:
+        """Nodes (k, 2) of the side after each corner, in the order of the face."""
+        return np.stack([self.faces, self.faces[self.ahead]], axis=-1)
 
     def per_corner(self, values: NDArray[T]) -> NDArray[T]:
         """Repeat values (f, …) of the faces for their corners (k, …)."""
@@ -123,19 +137,28 @@ class Mesh:
 def make_mesh(surface: Surface) -> Mesh:
     """Flatten the product form into arrays of nodes, edges and faces."""
     closed = (surface.profile.closed, surface.rail.closed)
-    rows = np.flatnonzero(~surface.profile.gap)
-    return grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed, rows)
+    caps = surface.profile.caps
+    bare = np.flatnonzero(surface.profile.gap)
+    poles = bare, np.array(caps.rows, dtype=np.int64)
+    return _with_lids(grid_mesh(surface.V, node_axes(surface), _kinds(surface), closed, poles), caps.lids)
 
 
-def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool], rows: Ints | None = None) -> Mesh:
-    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n); `rows` of panels or all."""
+def grid_mesh(
+    nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool], poles: tuple[Ints, Ints] = (_NONE, _NONE)
+) -> Mesh:
+    """Give the mesh of any grid of nodes (m, n, 3) with axes (m, n, 3) and kinds (m, n).
+
+    `poles` are rows without members, and rows with panels all the same.
+    """
     parallels, generatrices = nodes.shape[:2]
-    rows = np.arange(parallels - (not closed[0])) if rows is None else rows
+    rows = np.setdiff1d(np.arange(parallels - (not closed[0])), poles[0])
+    panelled = np.union1d(rows, poles[1])
     number = np.arange(parallels * generatrices).reshape(parallels, generatrices)
     strips = generatrices - (not closed[1])
     above, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
-    up, along, corner = number[rows], number[:, :strips], number[rows, :strips]
-    quads = np.stack([corner, beside[rows, :strips], np.roll(above, -1, axis=1)[rows, :strips], above[rows, :strips]])
+    up, along, corner = number[rows], number[:, :strips], number[panelled, :strips]
+    ahead = np.roll(above, -1, axis=1)
+    quads = np.stack([corner, *(ring[panelled, :strips] for ring in (beside, ahead, above))])
     edges = [np.stack([up, above[rows]]), np.stack([along, beside[:, :strips]])]
     first = np.concatenate([up.ravel(), along.ravel()])
     return Mesh(
@@ -149,12 +172,29 @@ def grid_mesh(nodes: Floats, axes: Floats, kinds: Ints, closed: tuple[bool, bool
         faces=np.moveaxis(quads, 0, -1).ravel(),
         face_offsets=np.arange(0, 4 * corner.size + 1, 4),
         face_ij=_ij(corner.ravel(), generatrices),
-        rims=np.zeros((4 * corner.size, 3)),
+        rim_plane=np.full(4 * corner.size, -1),
+        planes=np.zeros((0, 2, 3)),
         node_piece=np.zeros(number.size, dtype=np.int64),
         edge_piece=np.zeros(first.size, dtype=np.int64),
         face_piece=np.zeros(corner.size, dtype=np.int64),
         shape=(parallels, generatrices),
         closed=closed,
+    )
+
+
+def _with_lids(mesh: Mesh, lids: tuple[int, ...]) -> Mesh:
+    """Add the panels over the parallels `lids`; they count as row m − 1 over the last parallel, m over the first."""
+    m, n = mesh.shape
+    first = {m - 1: (m - 1, np.arange(n)), 0: (m, np.roll(np.arange(n)[::-1], 1))}
+    added = [first[lid] for lid in sorted(lids, reverse=True)]
+    corners = [(0 if row == m else row) * n + around for row, around in added]
+    return replace(
+        mesh,
+        faces=np.concatenate([mesh.faces, *corners]),
+        face_offsets=np.concatenate([mesh.face_offsets, mesh.face_offsets[-1] + n * np.arange(1, len(added) + 1)]),
+        face_ij=np.concatenate([mesh.face_ij, np.array([(row, 0) for row, _ in added], dtype=np.int64).reshape(-1, 2)]),
+        face_piece=np.concatenate([mesh.face_piece, np.zeros(len(added), dtype=np.int64)]),
+        rim_plane=np.concatenate([mesh.rim_plane, np.full(n * len(added), -1)]),
     )
 
 

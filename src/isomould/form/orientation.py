@@ -27,14 +27,20 @@ def orient_rail(
         raise Refused(
             "E-RAIL-OUTSIDE",
             f"{field}.outside",
-            f"{outside!r} for {'a closed' if curve.closed else 'an open'} curve",
-            "'outer' or 'inner' for closed curves, a direction [x, y] for open ones",
-            f"Say {'whether' if curve.closed else 'to which side'} the outside lies.",
+            f"{_spelt(outside)}, and the rail is {'closed' if curve.closed else 'open'}",
+            "'outer' or 'inner' for a closed rail, a direction [x, y] in its plane for an open one",
+            f"Set {field}.outside = 'outer', or 'inner' if the building's outside is enclosed by the rail."
+            if curve.closed
+            else f"Set {field}.outside to a direction that points to the outside, such as [0, 1].",
         )
     if isinstance(outside, str):
         forwards = signed_area(curve) > 0
         return curve if forwards == (outside == "outer") else curve.reversed()
     return orient_open(curve, outside, field)
+
+
+def _spelt(outside: str | tuple[float, float]) -> str:
+    return f"'{outside}'" if isinstance(outside, str) else f"the direction [{outside[0]:g}, {outside[1]:g}]"
 
 
 def orient_open(curve: PlanarCurve, outside: tuple[float, float], field: str) -> PlanarCurve:

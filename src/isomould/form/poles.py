@@ -4,7 +4,7 @@ At a pole the normal of the generatrix is parallel to the axis of the rail, and 
 multiples of π.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -19,20 +19,31 @@ _CLEAR = 1e-9
 """Distance (rad) from a limit below which a span is not cut there."""
 
 
-def strips_between_poles(curve: PlanarCurve, turns: Spans, min_angle: float) -> tuple[tuple[Spans, ...], bool]:
+@dataclass(frozen=True)
+class Strips:
+    """What is left of a generatrix between its poles, in order.
+
+    A closed curve's first strip begins behind the last pole. `cut` says whether something was taken out before the
+    first strip and behind the last.
+    """
+
+    spans: tuple[Spans, ...]
+    closed: bool
+    cut: tuple[bool, bool]
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing was taken out."""
+        return len(self.spans) == 1 and not any(self.cut)
+
+
+def strips_between_poles(curve: PlanarCurve, turns: Spans, min_angle: float) -> Strips:
     """Take out of a walk what comes nearer than `min_angle` (rad) to a pole.
 
     Parameters
     ----------
     turns
         Spans in walking order. Those of a closed curve begin and end off the poles, where they join.
-
-    Returns
-    -------
-    strips
-        What is left, in order; a closed curve's first strip begins behind the last pole.
-    cut
-        Whether anything was taken out.
     """
     divided = _cut(curve, turns, _limits(turns, min_angle))
     if curve.closed:
@@ -40,7 +51,8 @@ def strips_between_poles(curve: PlanarCurve, turns: Spans, min_angle: float) -> 
     near = _near(divided, min_angle)
     starts = np.flatnonzero(np.diff(near, prepend=not near[0]))
     runs = (np.arange(a, b) for a, b in pairwise([*starts, len(near)]))
-    return tuple(_take(divided, run) for run in runs if not near[run[0]]), bool(near.any())
+    spans = tuple(_take(divided, run) for run in runs if not near[run[0]])
+    return Strips(spans, curve.closed, (bool(near[0]), bool(near[-1])))
 
 
 def half_of(strip: Spans) -> int:

@@ -11,6 +11,18 @@ from isomould.form.polygon import FLAT, CurvePolygon
 Offset = Literal["face", "edge"]
 
 
+@dataclass(frozen=True)
+class Caps:
+    """What closes a surface at its poles without members.
+
+    `rows` have panels between parallels i and i + 1, the last parallel and the first included (i = m − 1); `lids` are
+    parallels that are the outline of one panel.
+    """
+
+    rows: tuple[int, ...] = ()
+    lids: tuple[int, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class Profile:
     """The profile polygon in the plane perpendicular to the rail.
@@ -27,7 +39,9 @@ class Profile:
     inner, flat : (m,) bool
         Vertices that are no open ends; those that do not turn.
     gap : (e,) bool
-        Edges that are none: the profile is open there.
+        Edges that are none: no member leads there.
+    caps : Caps
+        Gaps and ends that panels close.
     closed : bool
     offset : "face" or "edge"
     """
@@ -43,13 +57,19 @@ class Profile:
     gap: Bools
     closed: bool
     offset: Offset
+    caps: Caps = Caps()
+
+    @property
+    def whole(self) -> bool:
+        """Whether members lead everywhere, and each panel lies between four of them."""
+        return not (self.gap.any() or self.caps.lids)
 
     def __post_init__(self) -> None:
         for name in ("d", "z", "a", "b", "latitude", "lengths", "inner", "flat", "gap"):
             read_only(getattr(self, name))
 
 
-def make_profile(polygon: CurvePolygon, parallels: Floats | None) -> Profile:
+def make_profile(polygon: CurvePolygon, parallels: Floats | None, caps: Caps = Caps()) -> Profile:
     """Give the profile with the face offset, or with the edge offset of a Koebe mesh.
 
     Parameters
@@ -58,6 +78,8 @@ def make_profile(polygon: CurvePolygon, parallels: Floats | None) -> Profile:
         The divided generatrix in coordinates (d, z), its outside to the right.
     parallels : (m,) float, rad
         Latitudes λ of the vertices' parallels on the Koebe mesh, for edge offset meshes; None for the others.
+    caps
+        What closes poles.
     """
     latitude = polygon.edges.direction - np.pi / 2
     turning = np.nan_to_num(polygon.turning)
@@ -75,6 +97,7 @@ def make_profile(polygon: CurvePolygon, parallels: Floats | None) -> Profile:
         gap=polygon.gap,
         closed=polygon.closed,
         offset="face" if parallels is None else "edge",
+        caps=caps,
     )
 
 

@@ -129,10 +129,19 @@ class SurfaceSettings(Settings):
 
     kind: Kind = "isogonal"
     min_pole_angle_deg: Annotated[PositiveNumber, Field(lt=90)] = 5.0
-    pole: Literal["refuse", "open"] = "refuse"
+    pole: Literal["refuse", "open", "cap"] = "refuse"
     trim: tuple[TrimSettings, ...] = ()
     sill: Flag = False
     """Members along the edges that the planes cut."""
+
+    @model_validator(mode="after")
+    def _cap_needs_pole(self) -> "SurfaceSettings":
+        if self.pole == "cap" and self.kind != "edge-offset":
+            message = (
+                f"pole = 'cap' closes what edge offset meshes leave open; kind = '{self.kind}' leaves nothing open"
+            )
+            raise ValueError(message)
+        return self
 
     @model_validator(mode="after")
     def _sill_needs_plane(self) -> "SurfaceSettings":

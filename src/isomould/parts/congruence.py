@@ -7,10 +7,14 @@ the other's. A class holds max − min ≤ tolerance in every number: never a ch
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints, read_only
+
+Handed = Literal["none", "L", "R"]
+"""Chirality of a part: its mirror image is another part, unless it is none."""
 
 _SNAP = 1e-6
 """mm or rad: differences below it are rounding noise when equal descriptions are looked for."""
@@ -31,7 +35,8 @@ class Classes:
     canonical : (k,) int
         The representative's variant that describes the class.
     deviation : (n, q) float
-        Absolute differences between the instance's agreeing variant and the class's description.
+        Absolute differences between the instance's agreeing variant and the class's description; the largest of them
+        where groups were joined.
     """
 
     of: Ints
@@ -85,14 +90,52 @@ def smallest(numbers: Floats, labels: Ints, order: Ints | None = None) -> Ints:
     return np.argmax(alive, axis=1)
 
 
-def agrees_with_mirror(numbers: Floats, mirrored: Floats, labels: Ints, tolerance: Floats) -> Bools:
-    """Tell (k,) whether descriptions (k, q) agree with one of their mirror images' variants (k, s, q).
+def handedness(
+    own: tuple[Floats, Ints], mirror: tuple[Floats, Ints], tolerance: Floats, order: Ints | None = None
+) -> tuple[Handed, ...]:
+    """Tell the chirality (k,) of parts by their variants and those of their mirror images: of a pair, the smaller is L.
 
-    `labels` (k, s + 1, r) are those of the description, then of the variants.
+    Numbers within the tolerance are equal here too, in whatever order they are read: rounding noise decides nothing,
+    and a part that agrees with its mirror image has no hand.
+
+    Parameters
+    ----------
+    own, mirror
+        Numbers (k, s, q) and labels (k, s, r).
+    tolerance, order
+        As for `classify`.
     """
-    spread = np.abs(mirrored - numbers[:, None]) <= tolerance
-    equal = labels[:, 1:] == labels[:, :1]
-    return np.any(spread.all(axis=2) & equal.all(axis=2), axis=1)
+    numbers, labels = (np.concatenate(pair, axis=1) for pair in zip(own, mirror, strict=True))
+    left = np.arange(numbers.shape[1]) < own[0].shape[1]
+    alive = np.ones(numbers.shape[:2], dtype=bool)
+    columns = np.concatenate([numbers, labels], axis=2)
+    slack = np.concatenate([tolerance, np.zeros(labels.shape[2])])
+    for column in np.arange(columns.shape[2]) if order is None else order:
+        value = np.where(alive, columns[..., column], np.inf)
+        alive &= value <= value.min(axis=1, keepdims=True) + slack[column]
+    same = _agree(own, mirror, tolerance)
+    either = zip(same, (alive & left).any(axis=1), (alive & ~left).any(axis=1), strict=True)
+    return tuple("none" if equal or (one and other) else ("L" if one else "R") for equal, one, other in either)
+
+
+def _agree(own: tuple[Floats, Ints], mirror: tuple[Floats, Ints], tolerance: Floats) -> Bools:
+    """Whether parts (k,) as they stand agree with a variant of their mirror images."""
+    spread = np.abs(mirror[0] - own[0][:, :1]) <= tolerance
+    return np.any(spread.all(axis=2) & (mirror[1] == own[1][:, :1]).all(axis=2), axis=1)
+
+
+def joined(rows: list[Ints], parts: list[Classes]) -> Classes:
+    """Put the classes of groups of instances together; `rows` are the instances of each group, all of them once."""
+    count = sum(map(len, rows))
+    kinds = np.cumsum([0, *(len(part.representative) for part in parts)])
+    of, variant, deviation = np.empty(count, np.int64), np.empty(count, np.int64), np.empty((count, 1))
+    for group, part, kind in zip(rows, parts, kinds[:-1], strict=True):
+        of[group], variant[group] = kind + part.of, part.variant
+        deviation[group, 0] = part.deviation.max(axis=1)
+    representative = np.concatenate([group[part.representative] for group, part in zip(rows, parts, strict=True)])
+    canonical = np.concatenate([part.canonical for part in parts])
+    order = np.argsort(representative)
+    return Classes(np.argsort(order)[of], variant, representative[order], canonical[order], deviation)
 
 
 def _snapped(numbers: Floats) -> Ints:

@@ -117,7 +117,12 @@ def _refuse_depth(depth: float, needed: float) -> None:
 
 
 def _height(arms: NodeArms, section: PlateSection, shoulder: float) -> float:
-    """Drum height: `H/2 = min over arms [(h/2)/cos e − (R + end gap) tan|e|]`, rounded down to 0.001 mm."""
+    """Drum height: `H/2 = min over arms [(h/2)/cos e − (R + end gap) tan|e|]`, rounded down to 0.001 mm.
+
+    A drum without slots, where sills meet and nothing else, is as high as a level arm would make it.
+    """
+    if not len(arms.elevation):
+        return section.depth
     half = section.depth / 2 / np.cos(arms.elevation) - shoulder * np.tan(np.abs(arms.elevation))
     height = float(np.floor(round(2 * half.min() / 0.001, 3)) * 0.001)
     if height < 0.6 * section.depth:

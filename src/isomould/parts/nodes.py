@@ -1,18 +1,15 @@
 """Node classes: which nodes of the mesh are the same part (geometry §7)."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from isomould.arrays import Floats, Ints, read_only
 from isomould.form.mesh import Family, Mesh
 from isomould.parts.arms import Arms, normalised
-from isomould.parts.congruence import Classes, agrees_with_mirror, classify, smallest
+from isomould.parts.congruence import Classes, Handed, classify, handedness
 from isomould.parts.marks import locations, marks
 from isomould.parts.settings import CongruenceSettings
-
-Handed = Literal["none", "L", "R"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +44,9 @@ class NodeArms:
 
     @property
     def slot_gap(self) -> Floats:
-        """Azimuth (s,) rad from slot to slot."""
+        """Azimuth (s,) rad from slot to slot; none at a corner where sills meet and nothing else."""
         azimuth = self.slotted.azimuth
-        return np.diff(azimuth, append=azimuth[0] + 2 * np.pi)
+        return np.diff(azimuth, append=azimuth[:1] + 2 * np.pi)
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,11 +165,7 @@ def _backwards(rows: Ints) -> Ints:
 
 
 def _handedness(mesh: Mesh, arms: Arms, rows: Ints, tolerance: Floats) -> tuple[Handed, ...]:
-    """Chirality (k,) of nodes given by their arm rows (k, v): of a pair, the smaller description is L."""
-    numbers, labels = _signatures(mesh, arms, _rotations(rows))
-    mirror, tags = _signatures(mesh, arms, _rotations(_backwards(rows)), mirrored=True)
-    same = agrees_with_mirror(numbers[:, 0], mirror, np.concatenate([labels[:, :1], tags], axis=1), tolerance)
-    variants = np.concatenate([numbers, mirror], axis=1), np.concatenate([labels, tags], axis=1)
-    both = smallest(*variants, _reading_order(rows.shape[1]))
-    left = both < numbers.shape[1]
-    return tuple("none" if same[k] else ("L" if left[k] else "R") for k in range(len(rows)))
+    """Chirality (k,) of nodes given by their arm rows (k, v)."""
+    own = _signatures(mesh, arms, _rotations(rows))
+    mirror = _signatures(mesh, arms, _rotations(_backwards(rows)), mirrored=True)
+    return handedness(own, mirror, tolerance, _reading_order(rows.shape[1]))

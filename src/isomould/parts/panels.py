@@ -14,9 +14,8 @@ from isomould.arrays import Bools, Floats, Ints, read_only
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh
 from isomould.parts.arms import normalised
-from isomould.parts.congruence import Classes, agrees_with_mirror, classify, smallest
+from isomould.parts.congruence import Classes, Handed, classify, handedness, joined
 from isomould.parts.marks import locations, marks
-from isomould.parts.nodes import Handed
 from isomould.parts.outline import round_outline
 from isomould.parts.settings import CongruenceSettings, PanelSettings
 
@@ -35,9 +34,9 @@ class PanelParts:
     handed : tuple of str
         Chirality per class; "none" for all where panels may be turned over.
     edges : (k,) int
-        Mesh edge under every side, −1 where a plane cut and there is no sill.
+        Mesh edge under every side, −1 where there is none: on radial sides of caps, and on cuts without sills.
     packers : (k,) float, mm
-        Packer thickness on the seat under every side; NaN where there is no seat, along a cut.
+        Packer thickness on the seat under every side; NaN where there is no seat: on radial sides and along cuts.
     bearing : (k,) float, mm
         Width of the seat that every side covers; infinite where there is no seat.
     underside : float, mm
@@ -87,8 +86,8 @@ class _Seats:
     """What panels see of the members under their sides: all (k,), vectors (k, 3).
 
     `origin`, `x` and `y` are the frame of the face; `ahead`, `behind` lead to the next and the last side of the face.
-    A side that a plane cut has no seat; there `upright` is the direction, in the face's cross-section, of that plane's
-    normal.
+    Bare sides have no seat: the radial ones of caps, and those that a plane cut. Along these `upright` is the
+    direction, in the face's cross-section, of that plane's normal.
     """
 
     corner: Floats
@@ -99,6 +98,7 @@ class _Seats:
     edge: Ints
     boundary: Bools
     rimmed: Bools
+    bare: Bools
     upright: Floats
     origin: Floats
     x: Floats
@@ -127,18 +127,17 @@ def make_panels(mesh: Mesh, depth: float, settings: PanelSettings, tolerance: Co
     corners = _outlines(seats, _insets(seats, underside, settings))
     _refuse_vanished(seats, corners, sides)
     polygons, sizes = _padded(mesh, corners), mesh.sizes
-    numbers, labels = _variants(polygons, sizes, flippable=settings.flippable)
-    spread = np.full(numbers.shape[2], tolerance.length)
-    classes = classify(numbers, labels, spread)
+    classes = _classify(polygons, sizes, tolerance.length, flippable=settings.flippable)
     chosen, starts = classes.representative, mesh.face_offsets[:-1]
+    over = classes.variant >= sizes
     return PanelParts(
         classes=classes,
         marks=marks("P", len(chosen)),
         locations=where,
         outlines=tuple(round_outline(_upright(polygons[k, : sizes[k]])) for k in chosen),
-        handed=_handedness(polygons[chosen], sizes[chosen], spread, flippable=settings.flippable),
+        handed=_handedness(polygons[chosen], sizes[chosen], tolerance.length, flippable=settings.flippable),
         edges=seats.edge,
-        packers=np.where(seats.rimmed, np.nan, underside - top),
+        packers=np.where(seats.bare, np.nan, underside - top),
         bearing=bearing,
         underside=underside,
         corners=_in_space(seats, corners, underside),
@@ -146,14 +145,16 @@ def make_panels(mesh: Mesh, depth: float, settings: PanelSettings, tolerance: Co
         slope=np.arccos(np.clip(seats.normal[starts, 2], -1.0, 1.0)),
         flatness=_flatness(mesh),
         deviation=classes.deviation.max(axis=1),
-        first_corner=_first_corner(classes.variant, sizes),
-        lowest_corner=_orders(sizes, flippable=settings.flippable)[np.arange(len(sizes)), classes.variant, 0],
-        turned_over=classes.variant >= sizes.max(),
+        first_corner=np.where(over, classes.variant - 1, -classes.variant) % sizes,
+        lowest_corner=(classes.variant - over) % sizes,
+        turned_over=over,
     )
 
 
 def _letter(side: int) -> str:
-    return "abcdefghijklmnopqrstuvwxyz"[side]
+    """Name side 0 "a", and those of panels with many sides "aa" and so on after "z"."""
+    more, last = divmod(side, 26)
+    return (_letter(more - 1) if more else "") + "abcdefghijklmnopqrstuvwxyz"[last]
 
 
 def _find_seats(mesh: Mesh) -> _Seats:
@@ -166,13 +167,21 @@ def _find_seats(mesh: Mesh) -> _Seats:
     sum_of_axes = axes + axes[ahead]
     top = normalised(sum_of_axes - _dot(sum_of_axes, along)[..., None] * along)
     fall = np.where(rimmed, 0.0, np.arctan2(-_dot(inward, top), _dot(normal, top)))
-    boundary = rimmed | (np.bincount(edge[edge >= 0], minlength=len(mesh.edges))[edge] == 1)
+    boundary = rimmed | _outermost(mesh)
     upright = np.stack([_dot(mesh.rims, inward), _dot(mesh.rims, normal)], axis=-1)
     first = mesh.per_corner(mesh.face_offsets[:-1])
     frame = corner[first], along[first], inward[first]
     return _Seats(
-        corner, along, inward, normal, fall, edge, boundary, rimmed, upright, *frame, ahead, np.argsort(ahead)
-    )
+        corner, along, inward, normal, fall, edge, boundary, rimmed, rimmed | (edge < 0), upright, *frame, ahead,
+        np.argsort(ahead),
+    )  # fmt: skip
+
+
+def _outermost(mesh: Mesh) -> Bools:
+    """Whether a side (k,) belongs to one face only."""
+    low, high = np.sort(mesh.sides, axis=1).T
+    _, of, times = np.unique(low * len(mesh.nodes) + high, return_inverse=True, return_counts=True)
+    return times[of] == 1
 
 
 def _normals(mesh: Mesh) -> Floats:
@@ -190,7 +199,7 @@ def _edges_of(mesh: Mesh) -> Ints:
     """Mesh edge (k,) under every side, found by its pair of nodes; −1 for none."""
     count = len(mesh.nodes)
     key = np.sort(mesh.edges, axis=1) @ np.array([count, 1])
-    asked = np.sort(np.stack([mesh.faces, mesh.faces[mesh.ahead]], axis=-1), axis=-1) @ np.array([count, 1])
+    asked = np.sort(mesh.sides, axis=-1) @ np.array([count, 1])
     order = np.argsort(key)
     found = order[np.minimum(np.searchsorted(key[order], asked), len(key) - 1)]
     return np.where(key[found] == asked, found, -1)
@@ -201,7 +210,7 @@ def _seat_tops(seats: _Seats, depth: float, settings: PanelSettings) -> Floats:
     low = np.where(seats.boundary, -min(settings.edge_overhang, settings.seat_width / 2), settings.gap / 2)
     reach = np.where(seats.fall >= 0, settings.seat_width / 2, low)
     top = (depth / 2 + settings.seat_height) * np.cos(seats.fall) + reach * np.sin(seats.fall)
-    return np.where(seats.rimmed, -np.inf, top)
+    return np.where(seats.bare, -np.inf, top)
 
 
 def _narrowest(seats: _Seats, settings: PanelSettings) -> Floats:
@@ -225,7 +234,7 @@ def _bearing(seats: _Seats, settings: PanelSettings) -> Floats:
     half = settings.seat_width / 2
     outer = half + np.minimum(settings.edge_overhang * np.cos(seats.fall), half)
     bearing = np.where(seats.boundary, outer, half - _narrowest(seats, settings))
-    return np.where(seats.rimmed, np.inf, bearing)
+    return np.where(seats.bare, np.inf, bearing)
 
 
 def _outlines(seats: _Seats, inset: Floats) -> Floats:
@@ -263,53 +272,38 @@ def _padded(mesh: Mesh, corners: Floats) -> Floats:
     return np.where(rows[..., None] >= 0, corners[rows], np.nan)
 
 
-def _orders(sizes: Ints, *, flippable: bool) -> Ints:
-    """Ways (f, s, v) to read the corners of polygons: from every corner, and backwards where they may be turned over.
+def _classify(polygons: Floats, sizes: Ints, tolerance: float, *, flippable: bool) -> Classes:
+    """Sort polygons into classes, those of each number of corners apart; variants count the ways to read a polygon."""
+    groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
+    sorted_apart = [_variants(polygons[rows, : sizes[rows[0]]], flippable=flippable) for rows in groups]
+    spread = [np.full(numbers.shape[2], tolerance) for numbers, _ in sorted_apart]
+    found = [classify(*each, limit) for each, limit in zip(sorted_apart, spread, strict=True)]
+    return joined(groups, found)
 
-    A polygon of fewer corners than others repeats its first way, and the corners from its first.
-    """
-    size, most = sizes[:, None, None], int(sizes.max())
-    start, step = np.arange(most)[None, :, None], np.arange(most)[None, None, :]
-    start = np.where(start < size, start, 0)
+
+def _orders(size: int, *, flippable: bool) -> Ints:
+    """Ways (s, v) to read the corners of a polygon: from every corner, and backwards where it may be turned over."""
+    start, step = np.arange(size)[:, None], np.arange(size)
     ways = [(start + step) % size, (start - 1 - step) % size]
-    return np.concatenate(ways[: 1 + flippable], axis=1)
+    return np.concatenate(ways[: 1 + flippable])
 
 
-def _variants(corners: Floats, sizes: Ints, *, flippable: bool) -> tuple[Floats, Ints]:
-    """Sides and diagonals (f, s, q) of polygons (f, v, 2), read in all ways; labelled by the number of corners."""
-    ways = _orders(sizes, flippable=flippable)
-    numbers = np.stack([_measures(corners, ways[:, k], sizes) for k in range(ways.shape[1])], axis=1)
-    return numbers, np.broadcast_to((sizes - sizes.max())[:, None, None], (*ways.shape[:2], 1)).astype(np.int64)
+def _variants(corners: Floats, *, flippable: bool) -> tuple[Floats, Ints]:
+    """Sides, then diagonals past one corner (f, s, 2v) mm of polygons (f, v, 2), read in all ways; no labels."""
+    around = corners[:, _orders(corners.shape[1], flippable=flippable)]
+    lengths = [np.linalg.norm(np.roll(around, -skip, axis=2) - around, axis=3) for skip in (1, 2)]
+    numbers = np.concatenate([lengths[0], lengths[1][..., :-2]], axis=2)
+    return numbers, np.zeros((*numbers.shape[:2], 1), dtype=np.int64)
 
 
-def _measures(corners: Floats, order: Ints, sizes: Ints) -> Floats:
-    """Sides, then diagonals past one corner (f, 2v − 2) mm of polygons read in an order (f, v); 0 beyond the last."""
-    around = np.take_along_axis(corners, order[..., None], axis=1)
-    step, size = np.arange(order.shape[1]), sizes[:, None]
-    lengths = [_reach(around, (step + skip) % size) for skip in (1, 2)]
-    sides = np.where(step < size, lengths[0], 0.0)
-    return np.concatenate([sides, np.where(step < size - 2, lengths[1], 0.0)[:, :-2]], axis=1)
-
-
-def _reach(around: Floats, other: Ints) -> Floats:
-    """Distances (f, v) of the corners of polygons (f, v, 2) from other corners (f, v)."""
-    return np.linalg.norm(np.take_along_axis(around, other[..., None], axis=1) - around, axis=2)
-
-
-def _first_corner(variant: Ints, sizes: Ints) -> Ints:
-    """Corner (f,) of the part at corner 0 of the face: variant k starts at corner k, backwards if turned over."""
-    most = sizes.max()
-    shift = variant % most
-    return np.where(variant >= most, sizes - 1 + shift, -shift) % sizes
-
-
-def _handedness(corners: Floats, sizes: Ints, tolerance: Floats, *, flippable: bool) -> tuple[Handed, ...]:
-    """Chirality (k,) of the classes: of a mirrored pair, the one with the smaller description is L."""
-    numbers, labels = _variants(corners, sizes, flippable=True)
-    ways = numbers.shape[1] // 2
-    same = agrees_with_mirror(numbers[:, 0], numbers[:, ways:], labels[:, : ways + 1], tolerance)
-    left = smallest(numbers, labels) < ways
-    return tuple("none" if same[k] or flippable else ("L" if left[k] else "R") for k in range(len(corners)))
+def _handedness(corners: Floats, sizes: Ints, tolerance: float, *, flippable: bool) -> tuple[Handed, ...]:
+    """Chirality (k,) of the classes; none where panels may be turned over."""
+    found: list[Handed] = ["none"] * len(sizes)
+    for row in range(0 if flippable else len(sizes)):
+        numbers, labels = _variants(corners[row : row + 1, : sizes[row]], flippable=True)
+        own, mirror = ((numbers[:, half], labels[:, half]) for half in (slice(sizes[row]), slice(sizes[row], None)))
+        found[row] = handedness(own, mirror, np.full(numbers.shape[2], tolerance))[0]
+    return tuple(found)
 
 
 def _flatness(mesh: Mesh) -> Floats:

@@ -11,11 +11,14 @@ _MAX_TORSION_DEG = 0.01
 
 
 def beam_mismatch(arms: Arms, depth: float) -> Floats:
-    """Give the mismatch (n,) mm of every node: the spread of `(h/2)/sin(edge, axis)` over its arms, sills apart."""
+    """Give the mismatch (n,) mm of every node: the spread of `(h/2)/sin(edge, axis)` over its arms.
+
+    Sills are left out; the mismatch of none but sills is 0.
+    """
     reach = depth / 2 / np.cos(arms.elevation)
     starts = arms.offsets[:-1]
     high, low = (np.where(arms.sill, none, reach) for none in (-np.inf, np.inf))
-    return np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts)
+    return np.maximum(np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts), 0.0)
 
 
 def node_torsion(mesh: Mesh, arms: Arms) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.form.mesh import Family, Mesh
-from isomould.form.trim import sill_tops
+from isomould.form.rims import sill_tops
 from isomould.parts.arms import Arms, normalised
 from isomould.parts.drum import Drum
 from isomould.parts.settings import PlateSection

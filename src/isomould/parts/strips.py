@@ -81,11 +81,11 @@ def _whole(mesh: Mesh, rows: Ints, along: Along) -> Ints:
     """Corners (k, 4) of a strip's panels, each of which must share a fold with the next."""
     corners = mesh.table(mesh.faces)[rows][:, :4]
     steps = np.diff(mesh.face_ij[rows, 0 if along == "generatrix" else 1])
-    if np.any(mesh.kind[corners] == NodeKind.SUPPORT) or np.any(corners < 0) or np.any(steps != 1):
+    if np.any(mesh.kind[corners] == NodeKind.SUPPORT) or np.any(mesh.sizes[rows] != 4) or np.any(steps != 1):
         raise Refused(
             "E-STRIP",
             "deliver.strips",
-            f"a strip along {'generatrices' if along == 'generatrix' else 'parallels'} with trimmed panels or a gap",
+            f"a strip along {'generatrices' if along == 'generatrix' else 'parallels'} with cut panels, a gap or a lid",
             "strips of whole panels",
             "Leave deliver.strips out for trimmed surfaces and those that pass poles.",
         )

@@ -17,6 +17,7 @@ from isomould.verify.read.tables import Table, pairs, read_table
 from isomould.verify.read.text import Json, read_json
 from isomould.verify.read.workbook import Workbook, read_workbook
 from isomould.verify.rules import Floats, Unreadable
+from isomould.verify.space import SEAM, frame_gap
 from isomould.workers import Spread, one_by_one
 
 
@@ -109,6 +110,19 @@ class Delivery:
         edges = edge_vectors(self.mesh)
         unit = edges / np.linalg.norm(edges, axis=1)[:, None]
         return np.linalg.norm(np.cross(unit[:, None], self.mesh.node_axes[self.mesh.edges]), axis=2)
+
+    @cached_property
+    def seam(self) -> tuple[float, float]:
+        """What the frame of a closed rail in space misses itself by: mm, and rad at its edges; 0 for all others.
+
+        So far the last strip may leave its planes: the twist is never spread (V10 holds it to the shop's limit).
+        """
+        if self.design.plane is not None or not self.design.rail.closed:
+            return 0.0, 0.0
+        gap = min(frame_gap(self.design), SEAM)
+        shortest = np.linalg.norm(edge_vectors(self.mesh), axis=1).min()
+        reach = np.linalg.norm(self.design.generatrix.vertices, axis=1).max()
+        return gap, float(4 * gap / min(shortest, reach))
 
     @cached_property
     def node_kinds(self) -> dict[str, str]:

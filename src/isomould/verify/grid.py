@@ -19,6 +19,22 @@ class Grid:
     closed: tuple[bool, bool]
     gap: Bools
     """True (rows,) where the profile is open between a parallel and the next."""
+    caps: tuple[int, ...]
+    """Rows whose panels lie between parallels i and i + 1 (the last and the first too) without members."""
+    lids: tuple[int, ...]
+    """Parallels that are the outline of one panel."""
+
+    @property
+    def panelled(self) -> Bools:
+        """True (m,) where panels lie between a parallel and the next."""
+        rows: Bools = np.append(~self.gap, np.zeros(len(self.index) - len(self.gap), dtype=np.bool_))
+        rows[list(self.caps)] = True
+        return rows
+
+    @property
+    def lid_rows(self) -> list[int]:
+        """Numbers i of the lids among the faces: behind all rows, first the last parallel's, then the first one's."""
+        return [len(self.index) - (lid > 0) for lid in self.lids]
 
     def beside(self, di: int, dj: int) -> Ints:
         """Give for every (i, j) the node at (i + di, j + dj), -1 where there is none."""
@@ -36,7 +52,9 @@ def grid_of(mesh: Mesh, design: Design) -> Grid:
     shape = (len(design.generatrix.vertices), len(design.rail.vertices))
     index, regular = np.full(shape, -1, dtype=np.int64), regular_nodes(mesh)
     index[tuple(mesh.node_ij[regular].T)] = regular
-    return Grid(index, (design.generatrix.closed, design.rail.closed), design.generatrix.gap)
+    caps = design.raw.get("caps", {"rows": [], "lids": []})
+    closed = design.generatrix.closed, design.rail.closed
+    return Grid(index, closed, design.generatrix.gap, tuple(caps["rows"]), tuple(caps["lids"]))
 
 
 def regular_nodes(mesh: Mesh) -> Ints:
@@ -57,7 +75,7 @@ def whole_faces(mesh: Mesh, grid: Grid) -> tuple[Ints, Ints]:
 
 
 def _expected_corners(grid: Grid, ij: Ints) -> Ints:
-    around = [grid.index, grid.beside(0, 1), grid.beside(1, 1), grid.beside(1, 0)]
+    around = [np.roll(grid.index, step, axis=(0, 1)) for step in ((0, 0), (0, -1), (-1, -1), (-1, 0))]
     inside: Bools = np.all((ij >= 0) & (ij < np.array(grid.index.shape)), axis=1)
     i, j = np.where(inside[:, None], ij, 0).T
     return np.where(inside[:, None], np.column_stack([corner[i, j] for corner in around]), -2)

@@ -7,6 +7,9 @@ import numpy as np
 from isomould.verify.read.design import Design, edge_vectors
 from isomould.verify.rules import Floats
 
+SEAM = 0.01
+"""mm: the shop's limit of V10 for frames of closed rails whose coordinates were rounded."""
+
 
 def recomputed_in_space(design: Design) -> Floats:
     """Compute the grid of a rail in space anew, (m, n, 3) mm (geometry §3).

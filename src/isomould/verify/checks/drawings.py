@@ -109,10 +109,12 @@ def _segments(outline: Outline) -> Floats:
 
 
 def panel_areas(delivery: Delivery) -> Measured:
-    """Areas of the panels' part files against the schedule, relative."""
-    claimed = pairs(delivery.table("panels"), "mark", "area_m2")
-    off = {mark: abs(net_area(d) / (number(claimed[mark]) * 1e6) - 1) for mark, d in delivery.panels.items()}
-    return worst_of(list(off.values()), list(off))
+    """Areas of the panels' part files against the schedule, relative, its rounding apart: slivers have small areas."""
+    claimed = {mark: number(cell) for mark, cell in pairs(delivery.table("panels"), "mark", "area_m2").items()}
+    rounding = half_unit("area_m2")
+    areas = {mark: net_area(drawing) / 1e6 for mark, drawing in delivery.panels.items()}
+    off = [max(0.0, abs(area - claimed[mark]) - rounding) / claimed[mark] for mark, area in areas.items()]
+    return worst_of(off, list(areas))
 
 
 def panel_sizes(delivery: Delivery) -> Measured:

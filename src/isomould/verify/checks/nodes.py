@@ -18,7 +18,8 @@ def conical(delivery: Delivery) -> Measured:
     node, *arms = around[:, (around >= 0).all(axis=0)]
     rays = [mesh.nodes[arm] - mesh.nodes[node] for arm in arms]
     w1, w2, w3, w4 = (_angle(ray, rays[(k + 1) % 4]) for k, ray in enumerate(rays))
-    return worst_of(abs(w1 + w3 - w2 - w4), mesh.node_location[node], none="no node has four arms")
+    off, limit = abs(w1 + w3 - w2 - w4), ANGLE + 4 * delivery.seam[1]
+    return worst_of(off, mesh.node_location[node], limit=limit, none="no node has four arms")
 
 
 def _angle(a: Floats, b: Floats) -> Floats:
@@ -34,7 +35,7 @@ def axis_and_faces(delivery: Delivery) -> Measured:
     p = mesh.nodes[corners]
     normal = np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
     spread = _spread(corners.ravel(), _angle(normal[:, None], mesh.node_axes[corners]).ravel(), len(mesh.nodes))
-    return worst_of(spread, mesh.node_location)
+    return worst_of(spread, mesh.node_location, limit=ANGLE + delivery.seam[1])
 
 
 def _spread(owner: Ints, values: Floats, count: int) -> Floats:
@@ -53,7 +54,7 @@ def torsion_free(delivery: Delivery) -> Measured:
     normal = np.cross(edge_vectors(mesh)[beams], axes.sum(axis=1))
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     off = abs((axes * normal[:, None]).sum(axis=2)) * half / delivery.edge_slopes[beams]
-    return worst_of(off.max(axis=1), mesh.edge_location[beams], limit=_scaled(mesh))
+    return worst_of(off.max(axis=1), mesh.edge_location[beams], limit=_scaled(mesh) + half * delivery.seam[1])
 
 
 def _half_depth(delivery: Delivery) -> float:

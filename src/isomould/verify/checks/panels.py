@@ -9,13 +9,14 @@ from isomould.verify.rules import Floats, Ints, Measured, NotApplicable, Rule, f
 
 LENGTH = 1e-6
 EQUAL_TURNING = 1e-11
+PARALLEL = 1e-10
 
 
 def planarity(delivery: Delivery) -> Measured:
     """Distance of the other vertices from the plane of the widest three consecutive ones."""
     mesh = delivery.mesh
     groups = [(faces, mesh.nodes[corners]) for faces, corners in faces_by_size(mesh)]
-    limit = max(LENGTH, 1e-9 * max(float(np.ptp(points, axis=1).max()) for _, points in groups))
+    limit = max(LENGTH, 1e-9 * max(float(np.ptp(points, axis=1).max()) for _, points in groups)) + delivery.seam[0]
     found = [worst_of(_off_plane(points), mesh.face_location[faces], limit=limit) for faces, points in groups]
     return worse(*found)
 
@@ -33,7 +34,8 @@ def parallels(delivery: Delivery) -> Measured:
     faces, points = _quads(delivery)
     a, c = points[:, 1] - points[:, 0], points[:, 2] - points[:, 3]
     sine = np.linalg.norm(np.cross(a, c), axis=1) / np.linalg.norm(a, axis=1) / np.linalg.norm(c, axis=1)
-    return worst_of(np.where((a * c).sum(axis=1) > 0, sine, 1.0), delivery.mesh.face_location[faces])
+    opposed = np.where((a * c).sum(axis=1) > 0, sine, 1.0)
+    return worst_of(opposed, delivery.mesh.face_location[faces], limit=PARALLEL + delivery.seam[1])
 
 
 def _quads(delivery: Delivery) -> tuple[Ints, Floats]:
@@ -92,7 +94,7 @@ def _is_sound(points: Floats, axes: Floats) -> np.ndarray[tuple[int], np.dtype[n
 
 RULES = (
     Rule("V1", "panels are plane", LENGTH, "mm", planarity),
-    Rule("V2", "panels are trapezoids", 1e-10, "sin", parallels),
+    Rule("V2", "panels are trapezoids", PARALLEL, "sin", parallels),
     Rule("V3", "panels between equal rail nodes are isosceles and concyclic", LENGTH, "mm", isosceles),
     Rule("V4", "panels are simple, convex, counter-clockwise from outside", 0, "panels", convexity),
 )

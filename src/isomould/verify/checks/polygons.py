@@ -8,7 +8,7 @@ from isomould.verify.curve import distance_to, evaluate, is_loop, turned_at
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.design import Line, edge_vectors
 from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, worse, worst_of
-from isomould.verify.space import frame_gap
+from isomould.verify.space import SEAM, frame_gap
 
 ANGLE = 1e-11
 LENGTH = 1e-6
@@ -136,7 +136,7 @@ def closing(delivery: Delivery) -> Measured:
     """
     design = delivery.design
     if design.plane is None and design.rail.closed:
-        return worst_of([frame_gap(design)], ["frame of the rail"])
+        return worst_of([frame_gap(design)], ["frame of the rail"], limit=SEAM)
     return _both(delivery, _closing)
 
 

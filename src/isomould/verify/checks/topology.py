@@ -59,19 +59,34 @@ def _rows_in(rows: Ints, others: Ints) -> np.ndarray[tuple[int], np.dtype[np.boo
 def _grid_faults(mesh: Mesh, grid: Grid, sides: Ints) -> list[str]:
     """Check an untrimmed mesh against its numbers m, n and closed directions."""
     m, n = grid.index.shape
-    gaps = int(grid.gap.sum())
-    rows, strips = m - (not grid.closed[0]) - gaps, n - (not grid.closed[1])
-    border = (2 * strips * (m - rows)) + (2 * rows if strips < n else 0)
+    rows, strips, lids = int((~grid.gap).sum()), n - (not grid.closed[1]), len(grid.lids)
+    panels = rows + len(grid.caps)
+    border = strips * (2 * (m - panels) - lids) + (2 * panels if strips < n else 0)
     edges, times = np.unique(_undirected(sides), axis=0, return_counts=True)
-    expected = {"faces": rows * strips, "members": rows * n + m * strips, "sides in one face": border}
+    expected = {"faces": panels * strips + lids, "members": rows * n + m * strips, "sides in one face": border}
     found = {
         "faces": len(mesh.face_ij),
         "members": len(mesh.edges),
         "sides in one face": int((times == 1).sum()),
     }
     problems = [f"{found[k]} {k}, expected {expected[k]} of {m} × {n}" for k in expected if found[k] != expected[k]]
-    number, discs = len(mesh.nodes) - len(edges) + len(mesh.face_ij), (m - rows) * (n - strips)
+    number, discs = len(mesh.nodes) - len(edges) + len(mesh.face_ij), (m - panels) * (n - strips) + lids
+    problems += _row_faults(mesh, grid)
     return problems + ([] if number == discs else [f"V − E + F = {number}, expected {discs}"])
+
+
+def _row_faults(mesh: Mesh, grid: Grid) -> list[str]:
+    """Name rows that have panels, or none, against the design, and lids that are not the whole of their parallel."""
+    expected = {*np.flatnonzero(grid.panelled).tolist(), *grid.lid_rows}
+    astray = expected.symmetric_difference(mesh.face_ij[:, 0].tolist())
+    faces = {tuple(ij): corners for ij, corners in zip(mesh.face_ij.tolist(), _corners(mesh), strict=True)}
+    lids = [(row, faces.get((row, 0)), grid.index[lid]) for row, lid in zip(grid.lid_rows, grid.lids, strict=True)]
+    wrong = [row for row, found, parallel in lids if found is not None and set(found) != set(parallel.tolist())]
+    return [f"row {row}: panels against the design" for row in sorted(astray)] + [f"lid {row} is cut" for row in wrong]
+
+
+def _corners(mesh: Mesh) -> list[list[int]]:
+    return [face.tolist() for face in np.split(mesh.faces, mesh.face_offsets[1:-1])]
 
 
 def flips(delivery: Delivery) -> Measured:

@@ -86,10 +86,10 @@ def _index_faults(delivery: Delivery) -> list[str]:
 
 def revision(delivery: Delivery) -> Measured:
     """What a revision lists is what the schedules hold: quantities of now, and nothing that was dropped."""
+    now = {m: q for part in PARTS for m, q in pairs(delivery.table(f"{part}s"), "mark", "quantity").items()}
     if "revision" not in delivery.tables:
         raise NotApplicable("no former delivery was named")
     table = delivery.table("revision")
-    now = {m: q for part in PARTS for m, q in pairs(delivery.table(f"{part}s"), "mark", "quantity").items()}
     listed = pairs(table, "mark", "quantity")
     problems = [f"{m}: {listed.get(m)} in the revision, {q} scheduled" for m, q in now.items() if listed.get(m) != q]
     gone = [m for m, status in pairs(table, "mark", "status").items() if status in {"dropped", "retired"}]
