@@ -11,11 +11,13 @@ from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
 from isomould.delivery.model import write_record
 from isomould.delivery.schedules import write_schedules
-from isomould.design import Design
+from isomould.design import Design, kit_settings
 from isomould.documents.table import Table
 from isomould.errors import CertificateFailed, Refused
 from isomould.family import kit_table, make_designs
 from isomould.nesting.search import Effort, Search
+from isomould.parts.building import make_shapes
+from isomould.parts.clash import refuse_clashes
 from isomould.parts.solid import make_solids
 from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN
@@ -127,9 +129,12 @@ def _compute(design: Design, kit: Table | None, run: Run, spread: Spread) -> Del
     report(f"{len(design.kit.nodes.marks)} node solids")
     solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
     design = keep_design_marks(design, solids, former) if former else design
+    settings = kit_settings(project)
+    bodies = make_shapes(design.kit, settings, solids)
+    refuse_clashes(design.kit, settings, bodies)
     report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
     cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
-    return Delivery(design, solids, cutting, former, kit)
+    return Delivery(design, solids, bodies, cutting, former, kit)
 
 
 def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scope: Scope = "delivery") -> Certificate:

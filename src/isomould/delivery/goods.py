@@ -1,5 +1,6 @@
 """Everything that is written, and its tables."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +14,7 @@ from isomould.documents.stock_tables import bar_name, bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table
 from isomould.nesting.settings import BarStock, SheetStock, StockSettings
+from isomould.parts.plates import Shape
 from isomould.parts.solid import Solid
 from isomould.parts.strips import Strip, unroll_strips
 from isomould.project.schema import Project
@@ -20,13 +22,14 @@ from isomould.project.schema import Project
 
 @dataclass(frozen=True, eq=False)
 class Delivery:
-    """Everything that is written: the design, its solids, its layouts.
+    """Everything that is written: the design, its node solids, the surfaces of all parts by mark, its layouts.
 
     `former` is the delivery that it revises, `kit` the nodes that other shapes share with it.
     """
 
     design: Design
     solids: tuple[Solid, ...]
+    bodies: Mapping[str, Shape]
     cutting: Cutting
     former: Former | None = None
     kit: Table | None = None

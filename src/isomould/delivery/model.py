@@ -5,16 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints
 from isomould.delivery.goods import Delivery
+from isomould.design import kit_settings
 from isomould.form.mesh import Family
 from isomould.measure.offsets import DoubleLayer
+from isomould.parts.building import place_parts
 from isomould.parts.marks import locations
 from isomould.parts.members import MemberParts
 from isomould.parts.nodes import NodeParts
 from isomould.parts.panels import PanelParts
-from isomould.parts.plates import extrude
-from isomould.parts.poses import member_poses, node_poses, panel_poses
 from isomould.record import describe_design
 from isomould.writers.disk import write_bytes
 from isomould.writers.model import Instance, write_glb, write_npz, write_obj
@@ -26,7 +25,8 @@ def write_model(folder: Path, delivery: Delivery) -> None:
     write_record(folder, delivery)
     groups = [f"{mark}_{where}" for mark, where in zip(_marks(kit.panels), kit.panels.locations, strict=True)]
     write_obj(folder / "mesh.obj", kit.mesh.nodes, kit.mesh.faces, kit.mesh.face_offsets, groups)
-    write_glb(folder / "model.glb", _shapes(delivery), _instances(delivery))
+    surfaces = {mark: (shape.vertices, shape.triangles) for mark, shape in delivery.bodies.items()}
+    write_glb(folder / "model.glb", surfaces, _instances(delivery))
     if delivery.design.layers is not None:
         _write_layers(folder / "double-layer.obj", delivery.design.layers)
 
@@ -73,31 +73,10 @@ def _geometry(delivery: Delivery) -> dict[str, np.ndarray]:
     return arrays
 
 
-def _shapes(delivery: Delivery) -> dict[str, tuple[Floats, Ints]]:
-    """One solid per mark, in the frame of its class."""
-    kit, project = delivery.design.kit, delivery.design.project
-    half = project.members.section.thickness / 2
-    shapes = {mark: (s.vertices, s.triangles) for mark, s in zip(kit.nodes.marks, delivery.solids, strict=True)}
-    shapes |= {
-        mark: extrude(shape.outline, -half, half)
-        for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)
-    }
-    thickness = project.panels.thickness
-    levels = {False: (0.0, thickness), True: (-thickness, 0.0)}[project.panels.flippable]
-    return shapes | {
-        mark: extrude(outline, *levels) for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
-    }
-
-
 def _instances(delivery: Delivery) -> list[Instance]:
-    kit = delivery.design.kit
-    posed = (
-        (kit.nodes, node_poses(kit.mesh, kit.nodes)),
-        (kit.members, member_poses(kit.mesh, kit.members)),
-        (kit.panels, panel_poses(kit.mesh, kit.panels)),
-    )
+    standing = place_parts(delivery.design.kit, kit_settings(delivery.design.project))
     return [
         Instance(mark, where, pose)
-        for parts, poses in posed
-        for mark, where, pose in zip(_marks(parts), parts.locations, poses, strict=True)
+        for parts in standing
+        for mark, where, pose in zip(parts.marks, parts.locations, parts.poses, strict=True)
     ]

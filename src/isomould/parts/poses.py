@@ -30,17 +30,17 @@ def member_poses(mesh: Mesh, members: MemberParts) -> Floats:
     return _poses(x, y, np.cross(x, y), np.where(end_for_end, end, start))
 
 
-def panel_poses(mesh: Mesh, panels: PanelParts) -> Floats:
-    """Transforms (f, 4, 4) of the panels: x along side 0 of the part, z through its thickness to the outside.
+def panel_poses(mesh: Mesh, panels: PanelParts, thickness: float) -> Floats:
+    """Transforms (f, 4, 4) of the panels: x along side 0 of the part, z from its underside to the outside.
 
-    A panel that was turned over has its z to the inside.
+    A panel that was turned over lies face down: its z runs from its outer side to the inside.
     """
     starts, over, first = mesh.face_offsets[:-1], panels.turned_over, panels.lowest_corner
     second = np.where(over, first - 1, first + 1) % mesh.sizes
     origin = panels.corners[starts + first]
     x = normalised(panels.corners[starts + second] - origin)
     z = np.where(over[:, None], -panels.normals, panels.normals)
-    return _poses(x, np.cross(z, x), z, origin)
+    return _poses(x, np.cross(z, x), z, origin + thickness * over[:, None] * panels.normals)
 
 
 def _poses(x: Floats, y: Floats, z: Floats, origin: Floats) -> Floats:

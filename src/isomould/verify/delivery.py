@@ -10,6 +10,7 @@ import numpy as np
 from isomould.errors import OutputFault
 from isomould.verify.read.design import Design, read_design
 from isomould.verify.read.dxf import Drawing, read_dxf, with_layers
+from isomould.verify.read.glb import Model, read_glb
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
 from isomould.verify.read.solid import Solid, read_3mf
@@ -44,6 +45,11 @@ class Delivery:
         """The other shapes of the project by name: complete folders of their own."""
         names = self.design.raw.get("shapes", [])
         return {name: Delivery(self.folder / "shapes" / name, spread=self.spread) for name in names}
+
+    @cached_property
+    def model(self) -> Model:
+        """The placed parts of `model/model.glb`."""
+        return read_glb(self.folder / "model" / "model.glb")
 
     @cached_property
     def manifest(self) -> Json:

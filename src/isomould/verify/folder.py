@@ -9,9 +9,11 @@ from isomould.errors import OutputFault
 from isomould.verify.certificate import Certificate
 from isomould.verify.checks import (
     bars,
+    clash,
     classes,
     crossing,
     drawings,
+    gaps,
     manifest,
     nesting,
     nodes,
@@ -36,6 +38,8 @@ _GROUPS = (
     crossing,
     trimming,
     solids,
+    clash,
+    gaps,
     nesting,
     bars,
     classes,
