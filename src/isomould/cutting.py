@@ -1,13 +1,16 @@
 """Panels on sheets and members on bars: what the nesting room gets from the parts, and what comes back."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import cast
 
-from isomould.arrays import Ints
+import numpy as np
+
+from isomould.arrays import Floats, Ints, round_um
 from isomould.documents.schedules import Placed
 from isomould.errors import Refused
+from isomould.nesting.assembly import yield_percent
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Layout, Member, Part, Unplaced
 from isomould.nesting.nest import nest_blanks, nest_sheets
@@ -59,7 +62,27 @@ def nest_kit(kit: Kit, section: str, stock: StockSettings | None, task: Search, 
     bars = cast("BarLayout", rest[0]) if rest else None
     refuse_unplaced(sheets.unplaced, "stock.sheets")
     refuse_unplaced(bars.unplaced if bars else (), "stock.bars")
-    return Cutting(stock, cast("Layout", sheets), bars)
+    return Cutting(stock, _with_chamfers(kit, cast("Layout", sheets)), bars)
+
+
+def _with_chamfers(kit: Kit, layout: Layout) -> Layout:
+    """Cut the corners off the panels where they were placed: they are nested uncut."""
+    parts = dict(zip(kit.panels.marks, zip(kit.panels.blanks, kit.panels.outlines, strict=True), strict=True))
+    cut = {mark: both for mark, both in parts.items() if len(both[0]) != len(both[1])}
+    if not cut:
+        return layout
+    placed = tuple(
+        replace(p, points=_placed(p.points, *cut[str(p.id)], turned_over=p.turned_over)) if str(p.id) in cut else p
+        for p in layout.placements
+    )
+    return replace(layout, placements=placed, yield_percent=yield_percent(layout.sheets, placed))
+
+
+def _placed(points: Floats, blank: Floats, outline: Floats, *, turned_over: bool) -> Floats:
+    """Place an outline (n, 2) as its blank was, whose first side tells the quarter turn."""
+    x = np.round((points[1] - points[0]) / blank[1, 0])
+    y = np.array([-x[1], x[0]]) * (-1.0 if turned_over else 1.0)
+    return round_um(points[0] + outline @ np.stack([x, y]))
 
 
 def _run(work: Callable[[], Layout | BarLayout]) -> Layout | BarLayout:
@@ -94,7 +117,7 @@ def _panel_parts(kit: Kit) -> tuple[Part, ...]:
     where = _where(panels.locations, panels.classes.of, len(panels.marks))
     return tuple(
         Part(mark, outline, len(places), row, places)
-        for mark, outline, row, places in zip(panels.marks, panels.outlines, rows, where, strict=True)
+        for mark, outline, row, places in zip(panels.marks, panels.blanks, rows, where, strict=True)
     )
 
 

@@ -18,7 +18,7 @@ from isomould.form.mesh import Mesh, make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.settings import FormLimits, Treatment
 from isomould.form.slivers import weigh_panels
-from isomould.form.trim import trim_mesh
+from isomould.form.trim import make_cut, trim_mesh
 from isomould.measure.offsets import DoubleLayer, make_double_layer
 from isomould.parts.kit import Kit, KitSettings, make_kit
 from isomould.parts.settings import CongruenceSettings
@@ -101,7 +101,8 @@ def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
 def kit_settings(project: Project) -> KitSettings:
     """Gather what the parts need to know."""
     tolerance = CongruenceSettings(length=project.tolerances.length, angle_deg=project.tolerances.angle_deg)
-    return KitSettings(project.members, project.nodes, project.panels, tolerance)
+    cuts = tuple(make_cut(table, number) for number, table in enumerate(project.surface.trim))
+    return KitSettings(project.members, project.nodes, project.panels, tolerance, cuts)
 
 
 def requests_of(project: Project) -> tuple[Request, Request]:

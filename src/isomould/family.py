@@ -12,7 +12,7 @@ from isomould.documents.table import Table, make_table
 from isomould.errors import Note, Refused
 from isomould.form.mesh import NodeKind
 from isomould.form.survey import node_angles
-from isomould.parts.kit import make_kit
+from isomould.parts.kit import make_kit, standing
 from isomould.parts.sharing import share_nodes
 from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN, Project
@@ -107,7 +107,8 @@ def _with_one_kit(designs: Designs) -> dict[str, Design]:
     settings = kit_settings(designs[MAIN].project)
     diameter = max(design.kit.drum.diameter for design in designs.values())
     settings = replace(settings, nodes=settings.nodes.model_copy(update={"drum_diameter": diameter}))
-    shared = share_nodes(meshes, settings.tolerance)
+    up = [standing(design.kit.mesh, kit_settings(design.project)) for design in designs.values()]
+    shared = share_nodes(meshes, settings.tolerance, up)
     kits = [make_kit(mesh, settings, nodes) for mesh, nodes in zip(meshes, shared, strict=True)]
     made = {name: replace(design, kit=kit) for (name, design), kit in zip(designs.items(), kits, strict=True)}
     note = _own_classes(kit_table(made))

@@ -13,6 +13,7 @@ from isomould.form.profile import Caps
 from isomould.form.spatial import SpatialPolygon
 from isomould.form.trim import make_cut
 from isomould.nesting.settings import StockSettings
+from isomould.parts.settings import BasePlateSettings
 
 
 def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
@@ -129,6 +130,20 @@ def _node(design: Design) -> dict[str, Any]:
         "plate_end_mm": drum.plate_end,
         "shoulder_mm": drum.shoulder,
         "web_mm": drum.web,
+        "base_plate": _base_plate(asked.base_plate),
+    }
+
+
+def _base_plate(asked: BasePlateSettings | None) -> dict[str, Any] | None:
+    if asked is None:
+        return None
+    return {
+        "thickness_mm": asked.thickness,
+        "stem_thickness_mm": asked.stem_thickness,
+        "holes": asked.holes,
+        "hole_diameter_mm": asked.hole_diameter,
+        "edge_distance_mm": asked.edge_distance,
+        "clearance_mm": asked.clearance,
     }
 
 
@@ -142,6 +157,8 @@ def _panel(design: Design) -> dict[str, Any]:
         "min_bearing_mm": asked.min_bearing,
         "smallest_bearing_mm": float(design.kit.panels.bearing.min()),
         "flippable": asked.flippable,
+        "coating": asked.coating,
+        "orientation_mark": asked.orientation_mark,
     }
 
 

@@ -56,7 +56,7 @@ def test_mirrored_panels_never_share_a_letter(turn):
     panel = np.array([[0.0, 0.0], [1000.0, 0.0], [900.0, 500.0], [250.0, 500.0]])
     mirrored = (panel * [-1, 1])[::-1]
     both = np.stack([np.roll(panel, turn, axis=0), mirrored])
-    assert sorted(_handedness(both, np.full(2, 4), 0.1, flippable=False)) == ["L", "R"]
+    assert sorted(_handedness(both, np.full(2, 4), np.zeros((2, 4)), 0.1, flippable=False)) == ["L", "R"]
 
 
 def hand(gaps, rises, noise=0.0):

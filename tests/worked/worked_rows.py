@@ -175,7 +175,7 @@ def node_row(i, j):
     row |= {"slots": count, "facets": 0, "holes": 1, "weld_length_mm": 2 * height * count}
     angle = max(apart(node_description(*place), node_description(i, j)) for place in same(node_classes(), (i, j)))
     row |= {"max_deviation_mm": angle * RADIUS, "max_deviation_deg": degrees(angle)}
-    return row | {"solid_file": f"nodes/{row['mark']}.3mf", "drawing_file": ""}
+    return row | {"solid_file": f"nodes/{row['mark']}.3mf", "drawing_file": f"nodes/{row['mark']}.dxf"}
 
 
 def mass(one, count):

@@ -7,6 +7,7 @@ from isomould.delivery.machine import write_machine_files, write_setting_out, wr
 from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
 from isomould.delivery.schedules import write_bars, write_schedules
+from isomould.delivery.solids import write_part_solids
 from isomould.workers import Spread
 
 
@@ -15,6 +16,7 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     write_model(folder / "model", delivery)
     write_machine_files(folder, delivery, spread)
     write_nodes(folder / "nodes", delivery)
+    write_part_solids(folder, delivery)
     write_schedules(folder, delivery)
     write_bars(folder / "bars" / "bars.csv", delivery)
     write_strips(folder / "strips", delivery)

@@ -11,6 +11,7 @@ from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
+from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
@@ -23,6 +24,7 @@ class _PartFile:
     path: Path
     outline: Floats
     layers: dict[Layer, str]
+    orientation: str | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,34 +35,43 @@ class _SheetFile:
     sheet: Sheet
     placements: tuple[Placement, ...]
     layers: dict[Layer, str]
+    orientation: str | None
 
 
 def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
     kit, layers = delivery.design.kit, delivery.design.project.deliver.layers
-    outlines = {
-        f"panels/{mark}.dxf": outline for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
-    }
-    outlines |= {
-        f"members/{m}.dxf": shape.outline for m, shape in zip(kit.members.marks, kit.members.shapes, strict=True)
-    }
-    spread(_write_part, [_PartFile(folder / name, outline, layers) for name, outline in outlines.items()])
+    orientation = _orientation(delivery.design.project.panels)
+    panels = zip(kit.panels.marks, kit.panels.outlines, strict=True)
+    members = zip(kit.members.marks, kit.members.shapes, strict=True)
+    files = [_PartFile(folder / "panels" / f"{mark}.dxf", outline, layers, orientation) for mark, outline in panels]
+    files += [_PartFile(folder / "members" / f"{mark}.dxf", shape.outline, layers, None) for mark, shape in members]
+    spread(_write_part, files)
     layout = delivery.cutting.sheets
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
     for placement in layout.placements:
         on[placement.sheet].append(placement)
-    files = [_SheetFile(folder / "sheets" / f"{s.id}.dxf", s, tuple(on[s.id]), layers) for s in layout.sheets]
-    spread(_write_sheet, files)
+    sheets = [
+        _SheetFile(folder / "sheets" / f"{s.id}.dxf", s, tuple(on[s.id]), layers, orientation) for s in layout.sheets
+    ]
+    spread(_write_sheet, sheets)
     write_bytes(folder / "sheets" / "nesting.json", layout_to_json(layout).encode())
 
 
+def _orientation(panels: PanelSettings) -> str | None:
+    """What stands beside the arrow to side a: which side is coated; None where nothing is engraved."""
+    text = {"none": "", "inside": "COATED INSIDE", "outside": "COATED OUTSIDE"}[panels.coating]
+    return text if panels.orientation_mark else None
+
+
 def _write_part(file: _PartFile) -> None:
-    write_dxf(file.path, part_drawing(file.path.stem, file.outline), file.layers)
+    write_dxf(file.path, part_drawing(file.path.stem, file.outline, orientation=file.orientation), file.layers)
 
 
 def _write_sheet(file: _SheetFile) -> None:
     placed = [(str(p.id), str(p.location), p.points) for p in file.placements]
-    write_dxf(file.path, sheet_drawing(file.sheet.width, file.sheet.height, placed), file.layers)
+    drawing = sheet_drawing(file.sheet.width, file.sheet.height, placed, orientation=file.orientation)
+    write_dxf(file.path, drawing, file.layers)
 
 
 def write_strips(folder: Path, delivery: Delivery) -> None:

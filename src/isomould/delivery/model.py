@@ -9,7 +9,7 @@ from isomould.delivery.goods import Delivery
 from isomould.design import kit_settings
 from isomould.form.mesh import Family
 from isomould.measure.offsets import DoubleLayer
-from isomould.parts.building import place_parts
+from isomould.parts.building import place_bases, place_parts
 from isomould.parts.marks import locations
 from isomould.parts.members import MemberParts
 from isomould.parts.nodes import NodeParts
@@ -74,7 +74,8 @@ def _geometry(delivery: Delivery) -> dict[str, np.ndarray]:
 
 
 def _instances(delivery: Delivery) -> list[Instance]:
-    standing = place_parts(delivery.design.kit, kit_settings(delivery.design.project))
+    kit = delivery.design.kit
+    standing = (*place_parts(kit, kit_settings(delivery.design.project)), place_bases(kit))
     return [
         Instance(mark, where, pose)
         for parts in standing

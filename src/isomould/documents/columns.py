@@ -33,7 +33,9 @@ TABLES: dict[str, tuple[str, ...]] = {
         "summary": "item value unit",
         "nodes": f"""mark quantity kind valence handed {ARMS} drum_diameter_mm drum_height_mm mass_kg
             total_mass_kg volume_cm3 coated_area_m2 bar_diameter_mm blank_length_mm removed_volume_cm3 slots
-            facets holes weld_length_mm max_deviation_mm max_deviation_deg solid_file drawing_file""",
+            facets holes
+            base_length_mm base_width_mm base_level_mm base_holes base_mass_kg
+            weld_length_mm max_deviation_mm max_deviation_deg solid_file drawing_file""",
         "node_instances": """location mark i j x_mm y_mm z_mm axis_x axis_y axis_z ref_x ref_y ref_z
             mismatch_mm torsion_deg members panels deviation_mm deviation_deg""",
         "members": """mark quantity family section grade system_length_mm top_length_mm bottom_length_mm
@@ -75,9 +77,9 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
-    """quantity quantity_before valence slots facets holes i j first_corner parts cuts pieces count parallels
-    generatrices nodes_count node_classes interior_node_classes members_count member_classes panels_count panel_classes
-    horizontal_parallels""".split()  # noqa: SIM905
+    """quantity quantity_before valence slots facets holes base_holes i j first_corner parts cuts pieces count
+    parallels generatrices nodes_count node_classes interior_node_classes members_count member_classes panels_count
+    panel_classes horizontal_parallels""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
 """In the cost a quantity is whatever is paid for, not a number of pieces."""

@@ -4,9 +4,11 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from isomould.arrays import Floats, round_um
 from isomould.documents.drawing import CutDrawing, Entity, Label, Layer, Polyline, chords, signed_area
+from isomould.documents.orientation import point_to_side
 from isomould.documents.stroke_font import text_strokes, text_width
 
 TEXT_HEIGHTS = (20.0, 14.0, 10.0, 7.0, 5.0, 3.5, 2.5, 2.0)
@@ -30,6 +32,8 @@ def part_drawing(
     bulges: Floats | None = None,
     inner: Sequence[Polyline] = (),
     note: str = "",
+    orientation: str | None = None,
+    reserved: Sequence[Floats] = (),
 ) -> CutDrawing:
     """Draw one part in its own frame: contour, inner contours, engraved mark and a line of information.
 
@@ -43,17 +47,26 @@ def part_drawing(
         Closed contours to cut inside, in either direction; CUT_INNER is clockwise by definition.
     note : str
         What stands after the mark in the information below the part.
+    orientation : str, optional
+        Engrave an arrow to the outline's first side, and this text beside it.
+    reserved : sequence of (k, 2) float, mm
+        Polygons that are kept free of the mark.
     """
     contour = Polyline("CUT", outline, True, bulges)
     holes = [_directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
     left, bottom = outline.min(axis=0)
     info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
     free = shapely.Polygon(chords(contour), [chords(hole) for hole in holes])
-    return CutDrawing((contour, *holes, *_engraving(mark, free), info))
+    free = free.difference(shapely.union_all([shapely.Polygon(taken) for taken in reserved]))
+    return CutDrawing((contour, *holes, *_engraved(mark, free, outline, orientation), info))
 
 
 def sheet_drawing(
-    width: float, height: float, placements: Iterable[Placement], scores: Floats | None = None
+    width: float,
+    height: float,
+    placements: Iterable[Placement],
+    scores: Floats | None = None,
+    orientation: str | None = None,
 ) -> CutDrawing:
     """Draw a nested sheet: stock outline, contours, engraved marks with locations, information.
 
@@ -65,19 +78,21 @@ def sheet_drawing(
         Points (n, 2) of the placed outline; a part that was turned over comes clockwise.
     scores : (k, 2, 2) float, mm, optional
         Lines to score, in cutting order: then the contours go to INFO, because nothing is cut.
+    orientation : str, optional
+        Engrave an arrow to every part's first side, and this text beside it.
     """
     layer: Layer = "CUT" if scores is None else "INFO"
     stock = Polyline("SHEET", np.array([[0, 0], [width, 0], [width, height], [0, height]], float), True)
     lines = [Polyline("SCORE", line, False) for line in ([] if scores is None else scores)]
-    parts = [entity for placement in placements for entity in _placed(layer, *placement)]
+    parts = [entity for placement in placements for entity in _placed(layer, orientation, *placement)]
     return CutDrawing((stock, *parts, *lines))
 
 
-def _placed(layer: Layer, mark: str, location: str, points: Floats) -> list[Entity]:
+def _placed(layer: Layer, orientation: str | None, mark: str, location: str, points: Floats) -> list[Entity]:
     contour, text = _directed(points, None, layer), f"{mark} {location}"
     outline = shapely.Polygon(points)
     at = outline.representative_point()
-    return [contour, *_engraving(text, outline), _info(text, at.x, at.y, TEXT_HEIGHTS[-1])]
+    return [contour, *_engraved(text, outline, points, orientation), _info(text, at.x, at.y, TEXT_HEIGHTS[-1])]
 
 
 def _directed(points: Floats, bulges: Floats | None, layer: Layer) -> Polyline:
@@ -97,7 +112,16 @@ def _info(text: str, x: float, y: float, height: float = _INFO_HEIGHT) -> Label:
     return Label("INFO", text, (float(x), float(y), 0.0), height)
 
 
-def _engraving(text: str, free: shapely.Polygon) -> list[Polyline]:
+def _engraved(text: str, free: BaseGeometry, outline: Floats, orientation: str | None) -> list[Polyline]:
+    """Engrave the mark, and before it the orientation if there is one."""
+    arrow = [] if orientation is None else point_to_side(outline, free, orientation)
+    if not arrow:
+        return _engraving(text, free)
+    taken = shapely.MultiPoint(np.concatenate([stroke.points for stroke in arrow])).envelope
+    return [*arrow, *_engraving(text, free.difference(taken))]
+
+
+def _engraving(text: str, free: BaseGeometry) -> list[Polyline]:
     """Engrave text at the tallest height that fits the free area; nothing when even the lowest does not."""
     middle = round_um(np.array(_middle(free).coords[0]))
     lines = ((height, turn) for height in TEXT_HEIGHTS for turn in _TURNS)
@@ -105,7 +129,7 @@ def _engraving(text: str, free: shapely.Polygon) -> list[Polyline]:
     return [] if found is None else _strokes(text, middle, *found)
 
 
-def _middle(free: shapely.Polygon) -> shapely.Point:
+def _middle(free: BaseGeometry) -> shapely.Point:
     return free.centroid if free.contains(free.centroid) else free.representative_point()
 
 

@@ -69,6 +69,7 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Column
     nodes, drum, asked = kit.nodes, kit.drum, settings.nodes
     count = len(nodes.marks)
     volume = np.array([solid.volume for solid in solids])
+    steel = volume + [base.volume if base else 0.0 for base in kit.bases]
     bar = asked.diameter_step * np.ceil(np.round((drum.diameter + asked.bar_allowance) / asked.diameter_step, 9))
     blank = np.round(drum.height + asked.facing_allowance, 6)
     deviation = _worst(nodes.deviation, nodes.classes.of, count)
@@ -82,7 +83,7 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Column
         **_arm_columns(kit, settings.members.section.name),
         "drum_diameter_mm": [drum.diameter] * count,
         "drum_height_mm": drum.height.tolist(),
-        "mass_kg": (volume * asked.density * _KG_PER_MM3).tolist(),
+        "mass_kg": (steel * asked.density * _KG_PER_MM3).tolist(),
         "volume_cm3": (volume / 1e3).tolist(),
         "coated_area_m2": [solid.surface / 1e6 for solid in solids],
         "bar_diameter_mm": [float(bar)] * count,
@@ -91,11 +92,24 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Column
         "slots": slots,
         "facets": [0] * count,
         "holes": [int(drum.bore > 0)] * count,
+        **_base_columns(kit, asked.density),
         "weld_length_mm": [2.0 * height * arms for height, arms in zip(drum.height, slots, strict=True)],
         "max_deviation_mm": (deviation * drum.radius).tolist(),
         "max_deviation_deg": np.degrees(deviation).tolist(),
         "solid_file": [f"nodes/{mark}.3mf" for mark in nodes.marks],
-        "drawing_file": [""] * count,
+        "drawing_file": [f"nodes/{mark}.dxf" for mark in nodes.marks],
+    }
+
+
+def _base_columns(kit: Kit, density: float) -> Columns:
+    """What the supports stand on; blank for all other nodes."""
+    sizes = [np.ptp(base.plate, axis=0).tolist() if base else (None, None) for base in kit.bases]
+    return {
+        "base_length_mm": [length for length, _ in sizes],
+        "base_width_mm": [width for _, width in sizes],
+        "base_level_mm": [base and base.level for base in kit.bases],
+        "base_holes": [base and len(base.holes) for base in kit.bases],
+        "base_mass_kg": [base and base.volume * density * _KG_PER_MM3 for base in kit.bases],
     }
 
 
@@ -202,12 +216,13 @@ def _panels(kit: Kit, settings: PanelSettings) -> Columns:
     whole = ((kit.mesh.face_piece == 0) & (kit.mesh.sizes == 4))[first].tolist()
     size = np.array([np.ptp(outline, axis=0) for outline in panels.outlines])
     areas = np.array([area(outline) for outline in panels.outlines]) / 1e6
-    measures = [_measures(outline) if plain else {} for plain, outline in zip(whole, panels.outlines, strict=True)]
+    measures = [_measures(blank) if plain else {} for plain, blank in zip(whole, panels.blanks, strict=True)]
+    sound = [plain and len(o) == len(b) for plain, o, b in zip(whole, panels.outlines, panels.blanks, strict=True)]
     return {
         "mark": list(panels.marks),
         "quantity": panels.classes.quantity.tolist(),
         **{name: [row.get(name) for row in measures] for name in _MEASURES},
-        "outline": ["" if plain else _points(o) for plain, o in zip(whole, panels.outlines, strict=True)],
+        "outline": ["" if plain else _points(o) for plain, o in zip(sound, panels.outlines, strict=True)],
         "area_m2": areas.tolist(),
         "charged_area_m2": _charged(size, settings).tolist(),
         "box_width_mm": size[:, 0].tolist(),

@@ -14,7 +14,7 @@ import numpy as np
 from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
 from isomould.parts.arms import normalised
-from isomould.parts.building import Standing, place_parts
+from isomould.parts.building import Standing, place_bases, place_parts
 from isomould.parts.kit import Kit, KitSettings
 from isomould.parts.plates import Shape, shape_of
 
@@ -68,7 +68,7 @@ def refuse_clashes(kit: Kit, settings: KitSettings, shapes: Mapping[str, Shape])
 
 def _clashes(kit: Kit, settings: KitSettings, shapes: Mapping[str, Shape]) -> Iterator[_Clash]:
     solids = {mark: _solid(shape) for mark, shape in shapes.items()}
-    for node, parts in _kinds(kit, place_parts(kit, settings)):
+    for node, parts in _kinds(kit, place_parts(kit, settings), place_bases(kit)):
         placed = [solids[part.mark].transform(part.pose[:3]) for part in parts]
         for (one, body), (other, against) in combinations(zip(parts, placed, strict=True), 2):
             depth = overlap_depth(body, against)
@@ -105,8 +105,10 @@ def _thickness(piece: m3.Manifold) -> float:
     return float(min(extent, 6 * piece.volume() / piece.surface_area()))
 
 
-def _kinds(kit: Kit, standing: tuple[Standing, Standing, Standing]) -> Iterator[tuple[str, list[_Part]]]:
-    """Give the location and the parts of one node of every kind."""
+def _kinds(
+    kit: Kit, standing: tuple[Standing, Standing, Standing], bases: Standing
+) -> Iterator[tuple[str, list[_Part]]]:
+    """Give the location and the parts of one node of every kind; what it stands on belongs to its class."""
     nodes, members, panels = standing
     inverse = np.linalg.inv(nodes.poses).astype(np.float64)
     looks: list[list[bytes]] = [[mark.encode()] for mark in nodes.marks]
@@ -114,6 +116,9 @@ def _kinds(kit: Kit, standing: tuple[Standing, Standing, Standing]) -> Iterator[
         [_Part(f"{mark} {where}", mark, np.eye(4))]
         for mark, where in zip(nodes.marks, nodes.locations, strict=True)
     ]  # fmt: skip
+    place = {where: node for node, where in enumerate(nodes.locations)}
+    for mark, where, pose in zip(bases.marks, bases.locations, bases.poses, strict=True):
+        around[place[where]].append(_Part(f"{mark} {where}", mark, inverse[place[where]] @ pose))
     outlines = _outlines(kit)
     for parts, meeting in ((members, _of_edges(kit)), (panels, _of_faces(kit))):
         for node, part, pose, look in _seen(inverse, parts, meeting, outlines):

@@ -7,6 +7,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.errors import Note
 from isomould.form.mesh import Mesh
+from isomould.form.trim import Cut
 from isomould.parts.arms import Arms, find_arms
 from isomould.parts.drum import Drum, size_drum
 from isomould.parts.members import MemberParts, make_members
@@ -14,6 +15,7 @@ from isomould.parts.nodes import NodeParts, classify_nodes
 from isomould.parts.panels import PanelParts, make_panels
 from isomould.parts.quality import beam_mismatch, node_torsion, refuse_torsion
 from isomould.parts.settings import CongruenceSettings, MemberSettings, NodeSettings, PanelSettings
+from isomould.parts.supports import Base, make_bases, up_directions
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,8 @@ class KitSettings:
     nodes: NodeSettings
     panels: PanelSettings
     tolerance: CongruenceSettings
+    cuts: tuple[Cut, ...] = ()
+    """Planes that trim the surface."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +40,8 @@ class Kit:
         What they were made from.
     nodes, drum, members, panels
         Classes with marks, instances with locations.
+    bases : tuple of Base or None
+        Per node class: what a support stands on.
     mismatch, torsion : (n,) float, mm and rad
         Of every node.
     """
@@ -46,6 +52,7 @@ class Kit:
     drum: Drum
     members: MemberParts
     panels: PanelParts
+    bases: tuple[Base | None, ...]
     mismatch: Floats
     torsion: Floats
 
@@ -55,6 +62,11 @@ class Kit:
         worst = int(np.argmax(self.mismatch))
         text = f"beams mismatch by up to {self.mismatch[worst]:.3f} mm at a node ({self.nodes.locations[worst]})"
         return (Note("W-NODE-MISMATCH", "surface.kind", text),) if self.mismatch[worst] > 1e-6 else ()
+
+
+def standing(mesh: Mesh, settings: KitSettings) -> Floats:
+    """Give the directions (n, 3) in which supports stand on base plates; zeros for all nodes without."""
+    return up_directions(mesh, settings.cuts if settings.nodes.base_plate else ())
 
 
 def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) -> Kit:
@@ -68,11 +80,12 @@ def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) 
         If a part cannot be made as asked.
     """
     arms = find_arms(mesh)
-    nodes = nodes or classify_nodes(mesh, arms, settings.tolerance)
+    nodes = nodes or classify_nodes(mesh, arms, settings.tolerance, standing(mesh, settings))
     torsion = node_torsion(mesh, arms)
     refuse_torsion(torsion, nodes.locations)
     section = settings.members.section
     drum = size_drum(nodes.arms, section, settings.nodes)
     members = make_members(mesh, arms, nodes, drum, settings.members, settings.tolerance)
     panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance)
-    return Kit(mesh, arms, nodes, drum, members, panels, beam_mismatch(arms, section.depth), torsion)
+    bases = make_bases(nodes, drum, section, settings.nodes.base_plate)
+    return Kit(mesh, arms, nodes, drum, members, panels, bases, beam_mismatch(arms, section.depth), torsion)

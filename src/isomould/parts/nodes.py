@@ -70,6 +70,8 @@ class NodeParts:
         Unit direction of arm 1's projection onto the plane perpendicular to the node axis.
     deviation : (n,) float, rad
         Largest angular deviation of the node from its class.
+    up : (k, 3) float
+        Direction in the class's frame in which a support stands on its base; zeros for all other classes.
     """
 
     classes: Classes
@@ -81,16 +83,20 @@ class NodeParts:
     arm_rows: Ints
     reference: Floats
     deviation: Floats
+    up: Floats
 
     def __post_init__(self) -> None:
-        for array in (self.kind, self.arm_rows, self.reference, self.deviation):
+        for array in (self.kind, self.arm_rows, self.reference, self.deviation, self.up):
             read_only(array)
 
 
-def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings) -> NodeParts:
-    """Sort the nodes into classes by the angles and families of their arms."""
-    rows = _arm_table(arms)
-    numbers, labels = _signatures(mesh, arms, _rotations(rows))
+def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings, up: Floats | None = None) -> NodeParts:
+    """Sort the nodes into classes by the angles and families of their arms.
+
+    `up` (n, 3) are the directions in which nodes stand on bases, zeros for those without; nodes of a class share it.
+    """
+    rows, up = _arm_table(arms), np.zeros_like(mesh.nodes) if up is None else up
+    numbers, labels = _signatures(mesh, arms, _rotations(rows), up)
     spread = np.full(numbers.shape[2], np.radians(tolerance.angle_deg))
     classes = classify(numbers, labels, spread, _reading_order(rows.shape[1]))
     ordered = np.take_along_axis(_rotations(rows), classes.variant[:, None, None], axis=1)[:, 0]
@@ -103,11 +109,12 @@ def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings) -> Nod
         marks=marks("N", len(chosen)),
         locations=locations("N", mesh.node_ij, mesh.node_piece),
         arms=tuple(_class_arms(mesh, arms, row) for row in ordered[chosen]),
-        handed=_handedness(mesh, arms, rows[chosen], spread),
+        handed=_handedness(mesh, arms, rows[chosen], up[chosen], spread),
         kind=mesh.kind[chosen],
         arm_rows=ordered,
         reference=normalised(flat),
         deviation=classes.deviation.max(axis=1),
+        up=_in_frame(mesh, arms, first[:, None], up)[chosen, 0],
     )
 
 
@@ -127,8 +134,8 @@ def _rotations(rows: Ints) -> Ints:
     return np.where(step < valence, taken, -1)
 
 
-def _signatures(mesh: Mesh, arms: Arms, order: Ints, *, mirrored: bool = False) -> tuple[Floats, Ints]:
-    """Gaps and elevations (n, v, 2v), families and kind (n, v, v + 1) of the nodes read in the orders (n, v, v).
+def _signatures(mesh: Mesh, arms: Arms, order: Ints, up: Floats, *, mirrored: bool = False) -> tuple[Floats, Ints]:
+    """Gaps, elevations, up (n, v, 2v + 3), families and kind (n, v, v + 1) of the nodes read in the orders (n, v, v).
 
     A mirror image is read clockwise: there the gap after an arm belongs to the arm that follows.
     """
@@ -137,18 +144,28 @@ def _signatures(mesh: Mesh, arms: Arms, order: Ints, *, mirrored: bool = False) 
     following = np.take_along_axis(order, (np.arange(order.shape[2]) + 1) % valence, axis=2)
     gap = arms.gap[following if mirrored else order]
     numbers = [np.where(there, values, 0.0) for values in (gap, arms.elevation[order])]
+    stands = _in_frame(mesh, arms, order[:, :, 0], up) * [1.0, -1.0 if mirrored else 1.0, 1.0]
     family = np.where(there, mesh.family[arms.edge[order]], -1)
     kind = mesh.kind[arms.node[order[:, :, :1]]]
-    return np.concatenate(numbers, axis=2), np.concatenate([family, kind], axis=2)
+    return np.concatenate([*numbers, stands], axis=2), np.concatenate([family, kind], axis=2)
+
+
+def _in_frame(mesh: Mesh, arms: Arms, first: Ints, up: Floats) -> Floats:
+    """Directions (n, 3) in the frames (n, s, 3) of the nodes read from the arms (n, s)."""
+    axis, along = mesh.axes[arms.node[first]], arms.direction[first]
+    x = normalised(along - np.einsum("nsk,nsk->ns", along, axis)[..., None] * axis)
+    return np.stack([np.einsum("nsk,nk->ns", way, up) for way in (x, np.cross(axis, x), axis)], axis=-1)
 
 
 def _reading_order(valence: int) -> Ints:
-    """Order of the columns of a signature that compares nodes arm by arm: gap, elevation, family; the kind last.
+    """Order of the columns of a signature that compares nodes arm by arm: gap, elevation, family; up and kind last.
 
     Arm 1 is the one from which the sequence read so is smallest (fabrication, Node solids).
     """
-    arm_by_arm = np.arange(3 * valence).reshape(3, valence).T.ravel()
-    return np.append(arm_by_arm, 3 * valence)
+    column = np.arange(3 * valence + 4)
+    up = slice(2 * valence, 2 * valence + 3)
+    arm_by_arm = np.delete(column, up)[:-1].reshape(3, valence).T.ravel()
+    return np.concatenate([arm_by_arm, column[up], column[-1:]])
 
 
 def _class_arms(mesh: Mesh, arms: Arms, row: Ints) -> NodeArms:
@@ -164,8 +181,8 @@ def _backwards(rows: Ints) -> Ints:
     return np.where(column < valence, reverse, -1)
 
 
-def _handedness(mesh: Mesh, arms: Arms, rows: Ints, tolerance: Floats) -> tuple[Handed, ...]:
+def _handedness(mesh: Mesh, arms: Arms, rows: Ints, up: Floats, tolerance: Floats) -> tuple[Handed, ...]:
     """Chirality (k,) of nodes given by their arm rows (k, v)."""
-    own = _signatures(mesh, arms, _rotations(rows))
-    mirror = _signatures(mesh, arms, _rotations(_backwards(rows)), mirrored=True)
+    own = _signatures(mesh, arms, _rotations(rows), up)
+    mirror = _signatures(mesh, arms, _rotations(_backwards(rows)), up, mirrored=True)
     return handedness(own, mirror, tolerance, _reading_order(rows.shape[1]))

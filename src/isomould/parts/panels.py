@@ -10,14 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from isomould.arrays import Bools, Floats, Ints, read_only
+from isomould.arrays import Bools, Floats, Ints, read_only, round_um
 from isomould.errors import Refused
-from isomould.form.mesh import Mesh
+from isomould.form.mesh import Family, Mesh
 from isomould.parts.arms import normalised
 from isomould.parts.congruence import Classes, Handed, classify, handedness, joined
+from isomould.parts.corners import Stacks, Undersides, chamfer_legs, chamfered, refuse_long_chamfers
 from isomould.parts.marks import locations, marks
 from isomould.parts.outline import round_outline
-from isomould.parts.settings import CongruenceSettings, PanelSettings
+from isomould.parts.settings import CongruenceSettings, EdgeDeduction, PanelSettings
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +31,9 @@ class PanelParts:
     marks, locations : tuple of str
         One per class, one per face of the mesh.
     outlines : tuple of (n, 2) float, mm
-        One per class: rounded to 0.001 mm, side 0 along +x from the origin, counter-clockwise from outside.
+        One per class: rounded to 0.001 mm, side 0 along +x, counter-clockwise from outside. Corners may be chamfered.
+    blanks : tuple of (n, 2) float, mm
+        The outlines without chamfers, corner 0 at the origin: what is nested.
     handed : tuple of str
         Chirality per class; "none" for all where panels may be turned over.
     edges : (k,) int
@@ -61,6 +64,7 @@ class PanelParts:
     marks: tuple[str, ...]
     locations: tuple[str, ...]
     outlines: tuple[Floats, ...]
+    blanks: tuple[Floats, ...]
     handed: tuple[Handed, ...]
     edges: Ints
     packers: Floats
@@ -107,8 +111,16 @@ class _Seats:
     behind: Ints
 
 
-def make_panels(mesh: Mesh, depth: float, settings: PanelSettings, tolerance: CongruenceSettings) -> PanelParts:
+def make_panels(
+    mesh: Mesh,
+    depth: float,
+    settings: PanelSettings,
+    tolerance: CongruenceSettings,
+    stacks: Stacks | None = None,
+) -> PanelParts:
     """Lay the panels on their seats and sort them into classes; `depth` is the members' depth in mm.
+
+    `stacks` are what stands proud on the nodes: corners that it reaches are chamfered.
 
     Raises
     ------
@@ -118,29 +130,36 @@ def make_panels(mesh: Mesh, depth: float, settings: PanelSettings, tolerance: Co
     seats = _find_seats(mesh)
     top = _seat_tops(seats, depth, settings)
     underside = settings.spacer + float(top.max())
-    bearing = _bearing(seats, settings)
+    deduction = _deductions(mesh, seats, settings.edge_deduction)
+    bearing = _bearing(seats, deduction, settings)
     where = locations("P", mesh.face_ij, mesh.face_piece)
     sides = [
         f"side {_letter(side)} of {name}" for name, size in zip(where, mesh.sizes, strict=True) for side in range(size)
     ]
     _refuse_bearing(bearing, sides, settings)
-    corners = _outlines(seats, _insets(seats, underside, settings))
+    corners = _outlines(seats, _insets(seats, underside, settings) + deduction)
     _refuse_vanished(seats, corners, sides)
     polygons, sizes = _padded(mesh, corners), mesh.sizes
-    classes = _classify(polygons, sizes, tolerance.length, flippable=settings.flippable)
+    placed = _in_space(seats, corners, underside)
+    legs = _legs(mesh, Undersides(placed, seats.normal, settings.thickness), stacks, settings, sides)
+    classes = _classify(polygons, sizes, legs, tolerance.length, flippable=settings.flippable)
     chosen, starts = classes.representative, mesh.face_offsets[:-1]
     over = classes.variant >= sizes
+    blanks = tuple(round_outline(_upright(polygons[k, : sizes[k]])) for k in chosen)
     return PanelParts(
         classes=classes,
         marks=marks("P", len(chosen)),
         locations=where,
-        outlines=tuple(round_outline(_upright(polygons[k, : sizes[k]])) for k in chosen),
-        handed=_handedness(polygons[chosen], sizes[chosen], tolerance.length, flippable=settings.flippable),
+        outlines=tuple(chamfered(blank, legs[k, : sizes[k]]) for k, blank in zip(chosen, blanks, strict=True)),
+        blanks=blanks,
+        handed=_handedness(
+            polygons[chosen], sizes[chosen], legs[chosen], tolerance.length, flippable=settings.flippable
+        ),
         edges=seats.edge,
         packers=np.where(seats.bare, np.nan, underside - top),
         bearing=bearing,
         underside=underside,
-        corners=_in_space(seats, corners, underside),
+        corners=placed,
         normals=seats.normal[starts],
         slope=np.arccos(np.clip(seats.normal[starts, 2], -1.0, 1.0)),
         flatness=_flatness(mesh),
@@ -230,10 +249,16 @@ def _insets(seats: _Seats, underside: float, settings: PanelSettings) -> Floats:
     return np.where(seats.rimmed, (underside + settings.thickness) * away / towards, inset)
 
 
-def _bearing(seats: _Seats, settings: PanelSettings) -> Floats:
-    half = settings.seat_width / 2
-    outer = half + np.minimum(settings.edge_overhang * np.cos(seats.fall), half)
-    bearing = np.where(seats.boundary, outer, half - _narrowest(seats, settings))
+def _deductions(mesh: Mesh, seats: _Seats, asked: EdgeDeduction) -> Floats:
+    """Distance (k,) in the panel's plane that every side keeps beyond gap or overhang."""
+    inner = np.where(mesh.family[seats.edge] == Family.GENERATRIX, asked.generatrix, asked.parallel)
+    return np.where(seats.rimmed, asked.cut, np.where(seats.boundary, asked.boundary, inner))
+
+
+def _bearing(seats: _Seats, deduction: Floats, settings: PanelSettings) -> Floats:
+    half, level = settings.seat_width / 2, np.cos(seats.fall)
+    outer = half + np.minimum((settings.edge_overhang - deduction) * level, half)
+    bearing = np.where(seats.boundary, outer, half - _narrowest(seats, settings) - deduction * level)
     return np.where(seats.bare, np.inf, bearing)
 
 
@@ -272,10 +297,14 @@ def _padded(mesh: Mesh, corners: Floats) -> Floats:
     return np.where(rows[..., None] >= 0, corners[rows], np.nan)
 
 
-def _classify(polygons: Floats, sizes: Ints, tolerance: float, *, flippable: bool) -> Classes:
+def _classify(polygons: Floats, sizes: Ints, legs: Floats, tolerance: float, *, flippable: bool) -> Classes:
     """Sort polygons into classes, those of each number of corners apart; variants count the ways to read a polygon."""
     groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
-    sorted_apart = [_variants(polygons[rows, : sizes[rows[0]]], flippable=flippable) for rows in groups]
+    own = [slice(sizes[rows[0]]) for rows in groups]
+    sorted_apart = [
+        _variants(polygons[rows, size], legs[rows, size], flippable=flippable)
+        for rows, size in zip(groups, own, strict=True)
+    ]
     spread = [np.full(numbers.shape[2], tolerance) for numbers, _ in sorted_apart]
     found = [classify(*each, limit) for each, limit in zip(sorted_apart, spread, strict=True)]
     return joined(groups, found)
@@ -288,19 +317,32 @@ def _orders(size: int, *, flippable: bool) -> Ints:
     return np.concatenate(ways[: 1 + flippable])
 
 
-def _variants(corners: Floats, *, flippable: bool) -> tuple[Floats, Ints]:
-    """Sides, then diagonals past one corner (f, s, 2v) mm of polygons (f, v, 2), read in all ways; no labels."""
-    around = corners[:, _orders(corners.shape[1], flippable=flippable)]
+def _legs(mesh: Mesh, panels: Undersides, stacks: Stacks | None, settings: PanelSettings, sides: list[str]) -> Floats:
+    """Legs (f, v) of the chamfers at all corners; 0 for none and beyond the corners of a face."""
+    if stacks is None:
+        return np.zeros((len(mesh.sizes), int(mesh.sizes.max())))
+    legs = chamfer_legs(mesh, panels, stacks, settings.corner_clearance)
+    refuse_long_chamfers(mesh, panels.corners, legs, sides)
+    rows = mesh.table(np.arange(len(legs)))
+    return np.where(rows >= 0, round_um(legs)[rows], 0.0)
+
+
+def _variants(corners: Floats, legs: Floats, *, flippable: bool) -> tuple[Floats, Ints]:
+    """Sides, diagonals past one corner, chamfers (f, s, 3v − 2) of polygons (f, v, 2), read in all ways; no labels."""
+    ways = _orders(corners.shape[1], flippable=flippable)
+    around = corners[:, ways]
     lengths = [np.linalg.norm(np.roll(around, -skip, axis=2) - around, axis=3) for skip in (1, 2)]
-    numbers = np.concatenate([lengths[0], lengths[1][..., :-2]], axis=2)
+    numbers = np.concatenate([lengths[0], lengths[1][..., :-2], legs[:, ways]], axis=2)
     return numbers, np.zeros((*numbers.shape[:2], 1), dtype=np.int64)
 
 
-def _handedness(corners: Floats, sizes: Ints, tolerance: float, *, flippable: bool) -> tuple[Handed, ...]:
+def _handedness(corners: Floats, sizes: Ints, legs: Floats, tolerance: float, *, flippable: bool) -> tuple[Handed, ...]:
     """Chirality (k,) of the classes; none where panels may be turned over."""
     found: list[Handed] = ["none"] * len(sizes)
     for row in range(0 if flippable else len(sizes)):
-        numbers, labels = _variants(corners[row : row + 1, : sizes[row]], flippable=True)
+        numbers, labels = _variants(
+            corners[row : row + 1, : sizes[row]], legs[row : row + 1, : sizes[row]], flippable=True
+        )
         own, mirror = ((numbers[:, half], labels[:, half]) for half in (slice(sizes[row]), slice(sizes[row], None)))
         found[row] = handedness(own, mirror, np.full(numbers.shape[2], tolerance))[0]
     return tuple(found)

@@ -44,6 +44,20 @@ class MemberSettings(Settings):
     """Largest end cut that the saw can make, measured from square."""
 
 
+class BasePlateSettings(Settings):
+    """Plates under the supports of a trimmed surface, and the stems that carry the drums on them."""
+
+    thickness: PositiveLength = 15.0
+    stem_thickness: PositiveLength = 15.0
+    margin: PositiveLength = 60.0
+    """Of the plate beyond the drum's shadow on it."""
+    holes: Literal[4, 6, 8] = 4
+    hole_diameter: PositiveLength = 18.0
+    edge_distance: PositiveLength = 30.0
+    clearance: PositiveLength = 10.0
+    """Between the plate's top and what stands over it."""
+
+
 class NodeSettings(Settings):
     """The `[nodes]` table: a slotted drum (fabrication, Node solids)."""
 
@@ -66,6 +80,21 @@ class NodeSettings(Settings):
     """Turned off the blank's length."""
     density: PositiveNumber = 7850.0
     """kg/m³"""
+    base_plate: BasePlateSettings | None = None
+
+
+Coating = Literal["none", "inside", "outside"]
+"""Which side of a panel is coated."""
+
+
+class EdgeDeduction(Settings):
+    """How much further inside a panel ends than gap or overhang ask, by what is under the side."""
+
+    generatrix: NonNegativeLength = 0.0
+    parallel: NonNegativeLength = 0.0
+    boundary: NonNegativeLength = 0.0
+    cut: NonNegativeLength = 0.0
+    """Sides that a trimming plane made."""
 
 
 class PanelSettings(Settings):
@@ -83,7 +112,13 @@ class PanelSettings(Settings):
     min_bearing: PositiveLength = 12.0
     edge_overhang: NonNegativeLength = 0.0
     """Beyond the trace of the member's centre plane, on the boundary."""
+    corner_clearance: NonNegativeLength = 5.0
+    """Of corners from caps that stand proud of the nodes."""
+    edge_deduction: EdgeDeduction = EdgeDeduction()
     flippable: Flag = False
+    coating: Coating = "none"
+    orientation_mark: Flag = True
+    """Engrave an arrow to side a, and which side is coated."""
     glass_round: PositiveLength = 10.0
     """Step to which each side of the bounding box is rounded up for the charged area."""
     glass_min_area: NonNegativeNumber = 0.3

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from isomould.arrays import Ints
+from isomould.arrays import Floats, Ints
 from isomould.form.mesh import Mesh
 from isomould.parts.arms import Arms, find_arms
 from isomould.parts.congruence import Classes
@@ -18,15 +18,19 @@ from isomould.parts.settings import CongruenceSettings
 T = TypeVar("T")
 
 
-def share_nodes(meshes: Sequence[Mesh], tolerance: CongruenceSettings) -> tuple[NodeParts, ...]:
+def share_nodes(
+    meshes: Sequence[Mesh], tolerance: CongruenceSettings, up: Sequence[Floats] | None = None
+) -> tuple[NodeParts, ...]:
     """Sort the nodes of several meshes into classes together, by angles and families alone.
+
+    `up` are the directions (n, 3) per mesh in which nodes stand on bases, zeros for those without.
 
     Every mesh gets the classes that it uses. A class is made from its first node, in whichever mesh that lies, so
     that its arms are the same to the last bit everywhere.
     """
     together = side_by_side(meshes)
     arms = find_arms(together)
-    parts = classify_nodes(together, arms, tolerance)
+    parts = classify_nodes(together, arms, tolerance, None if up is None else np.concatenate(up))
     ends = np.cumsum([0, *(len(mesh.nodes) for mesh in meshes)]).tolist()
     return tuple(_part_of(parts, arms, mesh, slice(*rows)) for mesh, rows in zip(meshes, pairwise(ends), strict=True))
 
@@ -52,6 +56,7 @@ def _part_of(parts: NodeParts, arms: Arms, mesh: Mesh, rows: slice) -> NodeParts
         arm_rows=np.where(arm_rows >= 0, arm_rows - arms.offsets[rows.start], -1),
         reference=parts.reference[rows],
         deviation=parts.deviation[rows],
+        up=parts.up[used],
     )
 
 

@@ -145,6 +145,28 @@ class Project(Settings):
         return self
 
     @model_validator(mode="after")
+    def _bases_stand_under_supports(self) -> "Project":
+        if self.nodes.base_plate is not None and not self.surface.trim:
+            message = "nodes.base_plate goes under the supports of a trimmed surface: it needs surface.trim"
+            raise ValueError(message)
+        return self
+
+    @model_validator(mode="after")
+    def _coated_panels_stay_face_up(self) -> "Project":
+        turned = [
+            field
+            for field, asked in (
+                ("panels.flippable", self.panels.flippable),
+                ("stock.turn_over", self.stock is not None and self.stock.turn_over),
+            )
+            if asked
+        ]
+        if self.panels.coating != "none" and turned:
+            message = f"panels.coating = {self.panels.coating!r} and {turned[0]}: a coated panel has only one way up"
+            raise ValueError(message)
+        return self
+
+    @model_validator(mode="after")
     def _kind_fits_division(self) -> "Project":
         kind, rail, generatrix = self.surface.kind, self.rail.divide, self.generatrix.divide
         by_angle = any(way is not None for way in (rail.nodes, rail.angle_deg, rail.angles))

@@ -90,6 +90,11 @@ class Delivery:
         return self.drawings("members")
 
     @cached_property
+    def node_drawings(self) -> dict[str, Drawing]:
+        """The part files of nodes by name: plans of drums, base plates, stems."""
+        return self.drawings("nodes")
+
+    @cached_property
     def sheets(self) -> dict[str, Drawing]:
         """The cut sheets by name."""
         return self.drawings("sheets")

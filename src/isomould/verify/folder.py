@@ -9,12 +9,14 @@ from isomould.errors import OutputFault
 from isomould.verify.certificate import Certificate
 from isomould.verify.checks import (
     bars,
+    bases,
     clash,
     classes,
     crossing,
     drawings,
     gaps,
     manifest,
+    marks,
     nesting,
     nodes,
     panels,
@@ -40,6 +42,8 @@ _GROUPS = (
     solids,
     clash,
     gaps,
+    bases,
+    marks,
     nesting,
     bars,
     classes,

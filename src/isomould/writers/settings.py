@@ -27,6 +27,8 @@ class DeliverSettings(Settings):
     """Other names for the layers of the machine DXF."""
     strips: tuple[Along, ...] = ()
     """Strips to unroll: between neighbouring generatrices, between neighbouring parallels."""
+    solids: tuple[Literal["members", "panels"], ...] = ()
+    """Parts to write as solids, 3MF and STL, beside the nodes."""
     double_layer: DoubleLayerSettings | None = None
     compare: Flag = False
     """Schedule the same surface as every mesh family."""

@@ -163,11 +163,21 @@ def _rounding(column: str) -> float:
 def masses(delivery: Delivery) -> Measured:
     """Mass of every class against volume × density: solids of nodes, cut outlines × thickness of members."""
     nodes, members = _column(delivery, "nodes", "mass_kg"), _column(delivery, "members", "mass_kg")
-    own = {mark: volume(solid) * _node_density(delivery) for mark, solid in delivery.solids.items()}
+    steel = {mark: volume(solid) + base_volume(delivery, mark) for mark, solid in delivery.solids.items()}
+    own = {mark: found * _node_density(delivery) for mark, found in steel.items()}
     own |= {mark: _plate_mass(delivery, mark) for mark in members}
     claimed = nodes | members
     off = [abs(mass - claimed[mark]) for mark, mass in own.items()]
     return worst_of(off, list(own), limit=_rounding("mass_kg"))
+
+
+def base_volume(delivery: Delivery, mark: str) -> float:
+    """Steel of the base under a support, from its part files, mm³; 0 for all other nodes."""
+    asked, drawings = delivery.design.raw["node"].get("base_plate"), delivery.node_drawings
+    if asked is None or delivery.node_kinds[mark] != "support":
+        return 0.0
+    plates = {mark: asked["thickness_mm"], f"{mark}-stem": asked["stem_thickness_mm"]}
+    return sum(net_area(drawings[name]) * float(thickness) for name, thickness in plates.items())
 
 
 def panel_masses(delivery: Delivery) -> Measured:

@@ -12,8 +12,8 @@ CALCULATED = {"Summary", "Checks", "Cost", "Rates"}
 """Sheets that may hold formulas and texts anywhere."""
 
 _NUMERIC = re.compile(
-    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|holes|parts|cuts|pieces"
-    r"|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect|horizontal_parallels"
+    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|holes|base_holes"
+    r"|parts|cuts|pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect|horizontal_parallels"
     r"|\w+_(count|classes)"
 )
 _LISTS = {"packers_mm"}

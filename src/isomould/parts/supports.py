@@ -1,0 +1,199 @@
+"""Base plates under the supports: a plate parallel to the trimming plane, a stem that carries the drum (fabrication).
+
+Everything is in the frame of the node. `up` is the trimming plane's normal towards what is kept; the plate's frame has
+x along the projection of the node's axis, y across, z up, its origin on the plate's top under the work point.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats, read_only, round_um
+from isomould.errors import Refused
+from isomould.form.mesh import Family, Mesh, NodeKind
+from isomould.form.trim import Cut
+from isomould.parts.arms import normalised
+from isomould.parts.drum import Drum
+from isomould.parts.features import Hole
+from isomould.parts.nodes import NodeArms, NodeParts
+from isomould.parts.outline import area, round_outline
+from isomould.parts.plates import Shape, extrude, hole_contour
+from isomould.parts.settings import BasePlateSettings, PlateSection
+
+_SEAT = 0.9
+"""Share of the drum's chord through the work point that the stem carries at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """The base of one node class.
+
+    Attributes
+    ----------
+    frame : (4, 4) float, mm
+        From the plate's frame to the node's.
+    level : float, mm
+        Of the plate's top below the work point.
+    plate, stem : (n, 2) float, mm
+        Outlines: of the plate in its frame, of the stem with x as the plate's and y up.
+    holes : tuple of Hole
+        In the plate's frame.
+    plate_thickness, stem_thickness : float, mm
+    """
+
+    frame: Floats
+    level: float
+    plate: Floats
+    stem: Floats
+    holes: tuple[Hole, ...]
+    plate_thickness: float
+    stem_thickness: float
+
+    def __post_init__(self) -> None:
+        read_only(self.frame)
+
+    @property
+    def volume(self) -> float:
+        """Steel of plate and stem, mm³."""
+        bored = sum(np.pi / 4 * hole.diameter**2 for hole in self.holes)
+        return (area(self.plate) - bored) * self.plate_thickness + area(self.stem) * self.stem_thickness
+
+    @property
+    def stem_frame(self) -> Floats:
+        """Transform (4, 4) from the stem's frame to the node's."""
+        x, y, z, origin = self.frame.T
+        return np.stack([x, z, -y, origin], axis=-1)
+
+    @property
+    def shapes(self) -> tuple[Shape, Shape]:
+        """Plate and stem as solids, in their frames."""
+        half = self.stem_thickness / 2
+        plate = extrude(self.plate, -self.plate_thickness, 0.0, map(hole_contour, self.holes))
+        return plate, extrude(self.stem, -half, half)
+
+
+def up_directions(mesh: Mesh, cuts: Sequence[Cut]) -> Floats:
+    """Give the normal (n, 3) of the nearest trimming plane at every support; zeros at all other nodes."""
+    up = np.zeros_like(mesh.nodes)
+    if cuts:
+        nearest = np.abs([cut.heights(mesh.nodes) for cut in cuts]).argmin(axis=0)
+        up[:] = np.stack([cut.normal for cut in cuts])[nearest]
+    up[mesh.kind != NodeKind.SUPPORT] = 0.0
+    return up
+
+
+def make_bases(
+    nodes: NodeParts, drum: Drum, section: PlateSection, settings: BasePlateSettings | None
+) -> tuple[Base | None, ...]:
+    """Give the base of every node class; None for nodes that are no supports.
+
+    Raises
+    ------
+    Refused
+        If the holes lie too near to the plate's edges, to each other or to the drum.
+    """
+    if settings is None:
+        return (None,) * len(nodes.marks)
+    _refuse_holes(settings)
+    rows = zip(nodes.arms, nodes.up, drum.height.tolist(), nodes.marks, strict=True)
+    return tuple(
+        _make_base(arms, up, (drum.radius, height / 2), _reach(arms, up, drum, height, section), settings, mark)
+        if up.any()
+        else None
+        for arms, up, height, mark in rows
+    )
+
+
+def _make_base(
+    arms: NodeArms, up: Floats, drum: tuple[float, float], reach: float, settings: BasePlateSettings, mark: str
+) -> Base:
+    """Make a base for a drum of a radius and half a height, under parts that reach so far down."""
+    level = float(np.ceil(round(reach + settings.clearance, 6)))
+    axes = _axes(up)
+    lean, rise = float(axes[0, 2]), float(up[2])
+    radius, half = drum
+    footprint = np.array([radius * abs(rise) + half * abs(lean), radius])
+    size = np.ceil(np.round(footprint + settings.margin, 6))
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = axes.T, -level * up
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * size
+    return Base(
+        frame=frame,
+        level=level,
+        plate=round_outline(corners),
+        stem=_stem(lean, rise, drum, level),
+        holes=_holes(size, settings, mark),
+        plate_thickness=settings.thickness,
+        stem_thickness=settings.stem_thickness,
+    )
+
+
+def _axes(up: Floats) -> Floats:
+    """Axes (3, 3) of the plate: along the node axis' projection (arm 1's if the axis stands upright), across, up."""
+    axis, arm = np.eye(3)[[2, 0]]
+    towards = axis if np.hypot(up[0], up[1]) > 1e-6 else arm
+    x = normalised(towards - (towards @ up) * up)
+    return np.stack([x, np.cross(up, x), up])
+
+
+def _reach(arms: NodeArms, up: Floats, drum: Drum, height: float, section: PlateSection) -> float:
+    """How far drum, members and sills reach below the work point."""
+    below = [drum.radius * np.hypot(up[0], up[1]) + height / 2 * abs(up[2])]
+    below += [section.depth / 2] * int((arms.family == Family.SILL).any())
+    below += [float(-(_end_corners(*arm, drum, section) @ up).min()) for arm in _held(arms)]
+    return float(max(below))
+
+
+def _held(arms: NodeArms) -> list[tuple[float, float]]:
+    held = arms.slotted
+    return list(zip(held.azimuth.tolist(), held.elevation.tolist(), strict=True))
+
+
+def _end_corners(azimuth: float, elevation: float, drum: Drum, section: PlateSection) -> Floats:
+    """Corners (4, 3) of a member's body at the drum."""
+    half, r = section.depth / 2, drum.shoulder
+    out, aside = np.array([np.cos(azimuth), np.sin(azimuth), 0.0]), np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+    z = [(side * half + r * np.sin(elevation)) / np.cos(elevation) for side in (1, -1)]
+    return np.array([r * out + np.array([0, 0, h]) + s * section.thickness / 2 * aside for h in z for s in (1, -1)])
+
+
+def _stem(lean: float, rise: float, drum: tuple[float, float], level: float) -> Floats:
+    """Outline of the stem: from the plate up to the drum's section in the stem's plane, a rectangle that leans."""
+    radius, half = drum
+    along, aside = np.array([lean, rise]) * half, np.array([-rise, lean]) * radius
+    section = shapely.Polygon([along + aside, -along + aside, -along - aside, along - aside])
+    chord = min(half / max(abs(lean), 1e-9), radius / max(abs(rise), 1e-9))
+    under = shapely.box(-_SEAT * chord, -level, _SEAT * chord, 0.0).difference(section)
+    points = shapely.get_coordinates(shapely.normalize(under))[:-1] + np.array([0.0, level])
+    return round_outline(points if area(points) > 0 else points[::-1])
+
+
+def _holes(size: Floats, settings: BasePlateSettings, mark: str) -> tuple[Hole, ...]:
+    """Holes at the corners, and at the middles of the longer sides (6) or of all (8)."""
+    x, y = round_um(size - settings.edge_distance)
+    places = [(i * x, j * y) for i in (-1, 1) for j in (-1, 1)]
+    longer = [(0.0, y), (0.0, -y)] if x >= y else [(x, 0.0), (-x, 0.0)]
+    shorter = [(x, 0.0), (-x, 0.0)] if x >= y else [(0.0, y), (0.0, -y)]
+    places += longer[: 2 * (settings.holes > 4)] + shorter[: 2 * (settings.holes > 6)]
+    steps = {4: (2.0, 2.0), 6: (1.0, 2.0) if x >= y else (2.0, 1.0), 8: (1.0, 1.0)}[settings.holes]
+    apart = float(min(x * steps[0], y * steps[1]))
+    if apart < 2.4 * settings.hole_diameter:
+        _refuse("holes", f"{mark}: holes {apart:.3f} mm apart", 2.4 * settings.hole_diameter, "2.4 hole diameters")
+    return tuple(Hole(float(px), float(py), settings.hole_diameter) for px, py in places)
+
+
+def _refuse_holes(settings: BasePlateSettings) -> None:
+    """Refuse holes near the edges (EN 1993-1-8, table 3.3) and margins without room for washer and spanner."""
+    edge, diameter = settings.edge_distance, settings.hole_diameter
+    if edge < 1.2 * diameter:
+        _refuse("edge_distance", f"{edge:g} mm from hole to edge", 1.2 * diameter, "1.2 hole diameters")
+    if settings.margin < edge + diameter:
+        needed = "edge distance and hole diameter, so that washer and spanner pass the drum"
+        _refuse("margin", f"{settings.margin:g} mm beyond the drum", edge + diameter, needed)
+
+
+def _refuse(field: str, found: str, limit: float, why: str) -> None:
+    way_out = "Give larger plates (margin), smaller or fewer holes."
+    raise Refused("E-BASE-HOLES", f"nodes.base_plate.{field}", found, f"at least {limit:g} mm, {why}", way_out)
