@@ -60,8 +60,8 @@ def write_dxf(
     """
     names = layer_names(layers or {})
     check_drawing(drawing)
-    with _fixed_meta_data():
-        data = _bytes(_document(drawing, names, version))
+    with fixed_meta_data():
+        data = dxf_bytes(_document(drawing, names, version))
     write_bytes(path, data)
 
 
@@ -118,7 +118,7 @@ def _(entity: Label, space: Modelspace, layer: str) -> None:
     space.add_text(entity.text, height=entity.height, dxfattribs={"layer": layer, "insert": entity.position})
 
 
-def _bytes(document: Drawing) -> bytes:
+def dxf_bytes(document: Drawing) -> bytes:
     """Export a document; ezdxf would list the classes in use in the order of a set."""
     for name in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(name)
@@ -128,7 +128,7 @@ def _bytes(document: Drawing) -> bytes:
 
 
 @contextmanager
-def _fixed_meta_data() -> Generator[None]:
+def fixed_meta_data() -> Generator[None]:
     """Keep dates, user and GUIDs out of the file, from making the document to writing it."""
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True

@@ -1,0 +1,205 @@
+"""The sheet of a member class: elevation with its lengths, both ends enlarged, section, holes, data."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats
+from isomould.documents.shop.dimensions import Side, Span, above, below, left_of, running, stack, stack_height
+from isomould.documents.shop.grid import grid, grid_size
+from isomould.documents.shop.page import NORMAL, SMALLEST, Arc, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.rows import Row, data_rows, length_text
+from isomould.documents.shop.title_block import Stationery, Subject, finish, room
+from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.table import Table
+from isomould.parts.features import Hole
+from isomould.parts.members import MemberShape
+
+_END_SHARE = 0.75
+"""How much of an end is enlarged, in depths of the section."""
+_END_ROOM = (48.0, 42.0)
+_LEVEL = 0.0015
+"""Corners on one level line, each rounded to 0.001 mm, mm."""
+_HOLE_HEADING = ("Hole", "Face", "x", "y", "Ø", "Slot", "Thread")
+
+
+@dataclass(frozen=True, eq=False)
+class MemberDrawing:
+    """What is drawn of a member class: its row in the schedule, its shape, and its section (k, 2) outlines, mm."""
+
+    row: Row
+    shape: MemberShape
+    section: tuple[Floats, ...]
+
+
+def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sheet: int, sheets: int) -> Page:
+    """Draw one member class."""
+    size = paper_size("A4", lying=True)
+    left, bottom, right, top = room(stationery, size)
+    data = [("Member", member.row["mark"]), *data_rows(table, member.row)]
+    width, height = grid_size(data)
+    scale = _scale(member, right - left)
+    ends = fit_scale(_END_SHARE * _depth(member), _depth(member), _END_ROOM)
+    low = bottom + 24.0
+    items = [
+        *grid(data, (right - width, bottom + height)),
+        *_elevation(member, scale, ((left + right) / 2, top)),
+        *_end(member, ends, np.array([left + 24, low]), 1),
+        *_end(member, ends, np.array([left + 129, low]), -1),
+        *_section(member, ends, np.array([left + 163, low])),
+        *_holes(member.shape.holes, (left, bottom + 8)),
+    ]
+    scales = f"{scale_text(scale)} ({scale_text(ends)})"
+    return finish(stationery, Subject("Member", member.row["mark"], scales, sheet, sheets), size, items)
+
+
+def _depth(member: MemberDrawing) -> float:
+    return float(np.ptp(member.shape.outline[:, 1]))
+
+
+def _scale(member: MemberDrawing, width: float) -> float:
+    length = max(member.shape.system_length, member.shape.cut_length)
+    return fit_scale(length, _depth(member), (width - 25.0, 24.0))
+
+
+def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -> list[Item]:
+    """Draw the member with start node at the left, outside up, its lengths and set-backs; `head` is its upper middle."""
+    outline, length = member.shape.outline, member.shape.system_length
+    view = View(scale, np.array([length / 2, outline[:, 1].max()]), np.array([head[0], 0.0]))
+    over, under = _spans_above(member, view), _spans_below(member, view)
+    view = View(scale, view.centre, np.array([head[0], head[1] - stack_height(over) - 3]))
+    low, high = (view.place(np.array([0.0, end]))[1] for end in (outline[:, 1].min(), outline[:, 1].max()))
+    ends = view.place(np.array([[0.0, 0.0], [length, 0.0]]))
+    return [
+        view.outline(outline),
+        *_drilled(view, member.shape.holes),
+        Line("centre", ends + np.array([[-4.0, 0.0], [4.0, 0.0]])),
+        *(Arc("thin", point(end), 0.7) for end in ends),
+        *stack(above(np.array([0.0, high])), over),
+        *stack(below(np.array([0.0, low])), under),
+        *_hole_places(member.shape, view, float(low) - stack_height(under)),
+    ]
+
+
+def _level(outline: Floats, top: bool) -> Floats:  # noqa: FBT001
+    """Least and greatest x of the corners on the top (bottom) edge."""
+    y = outline[:, 1] if top else -outline[:, 1]
+    x = outline[y > y.max() - _LEVEL, 0]
+    return np.array([x.min(), x.max()])
+
+
+def _spans_above(member: MemberDrawing, view: View) -> list[Span]:
+    shape, row = member.shape, member.row
+    work = (shape.outline[:, 1].max()) / view.scale
+    back, length = shape.set_back, shape.system_length
+    return [
+        _span(view, _level(shape.outline, True), row["top_length_mm"]),
+        _span(view, np.array([0.0, back[0]]), row["set_back_start_mm"], (-work, -work)),
+        _span(view, np.array([length - back[1], length]), row["set_back_end_mm"], (-work, -work)),
+    ]
+
+
+def _spans_below(member: MemberDrawing, view: View) -> list[Span]:
+    shape, row = member.shape, member.row
+    x, work = shape.outline[:, 0], shape.outline[:, 1].min() / view.scale
+    return [
+        _span(view, _level(shape.outline, False), row["bottom_length_mm"]),
+        _span(view, np.array([x.min(), x.max()]), row["cut_length_mm"], (work / 2, work / 2)),
+        _span(view, np.array([0.0, shape.system_length]), row["system_length_mm"], (work, work)),
+    ]
+
+
+def _span(view: View, x: Floats, text: str, feet: tuple[float, float] = (0.0, 0.0)) -> Span:
+    start, end = ((x - view.centre[0]) / view.scale + view.at[0]).tolist()
+    return Span(start, end, text, feet)
+
+
+def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item]:
+    """Enlarge the start (`way` 1) or the end (−1), its outermost point above or below `at`, with running dimensions."""
+    outline = member.shape.outline
+    tip, low = float((outline[:, 0] * way).min()) * way, float(outline[:, 1].min())
+    view = View(scale, np.array([tip, low]), at)
+    reach = min(_END_SHARE * _depth(member), 0.45 * member.shape.cut_length)
+    near = outline[(outline[:, 0] - tip) * way < reach]
+    x, y = np.unique((near[:, 0] - tip) * way), np.unique(near[:, 1] - low)
+    side = Side(at, np.array([0.0, 1.0]), np.array([-float(way), 0.0]))
+    foot = Side(at, np.array([float(way), 0.0]), np.array([0.0, -1.0]))
+    word = "start" if way > 0 else "end"
+    caption = f"{word.capitalize()}: end angle {member.row[f'end_angle_{word}_deg']}°"
+    head = at + np.array([way * reach / 2 / scale, _depth(member) / scale + 8])
+    return [
+        *_clipped(view, outline, tip + way * reach),
+        *_drilled(view, [hole for hole in member.shape.holes if (hole.x - tip) * way < reach]),
+        *running(side, [(value / scale, length_text(value)) for value in y.tolist()]),
+        *running(foot, [(value / scale, length_text(value)) for value in x.tolist()]),
+        Text(caption, point(head), NORMAL, "middle"),
+    ]
+
+
+def _clipped(view: View, outline: Floats, x: float) -> list[Item]:
+    """Draw what lies on the outline's nearer side of x; the break there is a thin line."""
+    low, high = outline.min(axis=0) - 1.0, outline.max(axis=0) + 1.0
+    kept = shapely.box(low[0], low[1], x, high[1]) if x - low[0] < high[0] - x else shapely.box(x, low[1], *high)
+    edges = shapely.get_parts(shapely.line_merge(kept.intersection(shapely.LinearRing(outline))))
+    cut = shapely.get_coordinates(shapely.Polygon(outline).intersection(shapely.LineString([(x, low[1]), (x, high[1])])))
+    return [*(view.line(shapely.get_coordinates(edge), "outline") for edge in edges), view.line(cut, "centre")]
+
+
+def _section(member: MemberDrawing, scale: float, at: Floats) -> list[Item]:
+    """Draw the section with depth and width, its lower left corner at `at`; it is seen from the start, on the right."""
+    corners = np.concatenate(member.section)
+    view = View(scale, corners.min(axis=0), at)
+    wide, deep = np.ptp(corners, axis=0).tolist()
+    return [
+        *(view.outline(part) for part in member.section),
+        *stack(left_of(at), [Span(0.0, deep / scale, length_text(deep))]),
+        *stack(below(at), [Span(0.0, wide / scale, length_text(wide))]),
+        Text("Section", (float(at[0] + wide / 2 / scale), float(at[1] + deep / scale) + 8), NORMAL, "middle"),
+    ]
+
+
+def _drilled(view: View, holes: Sequence[Hole]) -> list[Item]:
+    """Draw the holes of the front: circles, and slots as two half circles with their sides."""
+    return [item for hole in holes if hole.face == "front" for item in _hole(view, hole)]
+
+
+def _hole(view: View, hole: Hole) -> list[Item]:
+    radius, half = hole.diameter / 2 / view.scale, np.array([hole.lengthening / 2 / view.scale, 0.0])
+    centre, up = view.place(np.array([hole.x, hole.y])), np.array([0.0, radius])
+    cross = np.array([[1.5, 0.0], [0.0, 1.5]]) + np.diag([radius + half[0], radius])
+    axes = [Line("centre", np.array([centre - arm, centre + arm])) for arm in cross]
+    if not hole.lengthening:
+        return [Arc("outline", point(centre), radius), *axes]
+    ends = [Arc("outline", point(centre + half), radius, -np.pi / 2, np.pi / 2)]
+    ends += [Arc("outline", point(centre - half), radius, np.pi / 2, 3 * np.pi / 2)]
+    return [*ends, *(Line("outline", np.array([centre - half + s * up, centre + half + s * up])) for s in (-1, 1)), *axes]
+
+
+def _hole_places(shape: MemberShape, view: View, low: float) -> list[Item]:
+    """Dimension the holes from the start of the part, running along it."""
+    start = float(shape.outline[:, 0].min())
+    places = np.unique([hole.x for hole in shape.holes]).tolist()
+    if not places:
+        return []
+    side = below(np.array([float(view.place(np.array([start, 0.0]))[0]), low]))
+    return running(side, [((x - start) / view.scale, length_text(x - start)) for x in places], first=6.0)
+
+
+def _holes(holes: Sequence[Hole], corner: tuple[float, float]) -> list[Item]:
+    """List the holes: x from the work point at the start, y from the middle line of their face."""
+    if not holes:
+        return []
+    rows = [
+        (str(k), hole.face, *map(length_text, (hole.x, hole.y, hole.diameter, hole.lengthening)), hole.thread or "-")
+        for k, hole in enumerate(holes, start=1)
+    ]
+    table = [_HOLE_HEADING, *rows]
+    return grid(table, (corner[0], corner[1] + grid_size(table, SMALLEST)[1] - 8), SMALLEST)
+
+
+def plate_section(depth: float, thickness: float) -> tuple[Floats, ...]:
+    """Give the outline of a plate's section, mm."""
+    half = thickness / 2
+    return (np.array([[-half, -depth / 2], [half, -depth / 2], [half, depth / 2], [-half, depth / 2]]),)

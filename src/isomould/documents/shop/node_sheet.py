@@ -1,0 +1,181 @@
+"""The sheet of a node class: section through arm 1, plan from outside below it (first angle), arms, data."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from isomould.arrays import Floats
+from isomould.documents.shop.dimensions import FIRST, Span, above, left_of, stack
+from isomould.documents.shop.grid import grid, grid_size
+from isomould.documents.shop.page import NORMAL, SMALL, SMALLEST, Arc, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.placing import place_all
+from isomould.documents.shop.rows import Row, data_rows
+from isomould.documents.shop.title_block import Stationery, Subject, finish, room
+from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.table import Table
+from isomould.parts.sections import Polygons, SolidViews
+
+_STUB, _BALLOON = 15.0, 3.0
+"""Length of an arm's line beyond the solid, and radius of the circle around its number, mm on paper."""
+_HATCH = 2.5
+_ARM_HEADING = ("Arm", "Azimuth °", "Elev. °", "Family", "Section", "Set-back")
+
+
+@dataclass(frozen=True, eq=False)
+class NodeDrawing:
+    """What is drawn of a node class: its row in the schedule, its solid, the set-backs of its arms, notes."""
+
+    row: Row
+    views: SolidViews
+    set_backs: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: int, sheets: int) -> Page:
+    """Draw one node class."""
+    size = paper_size("A4", lying=False)
+    left, bottom, right, top = room(stationery, size)
+    arms = _arm_rows(node)
+    data = data_rows(table, node.row)
+    tables = [("Node", node.row["mark"]), *data], arms
+    column = right - max(grid_size(tables[0])[0], grid_size(arms, SMALLEST)[0])
+    scale = _scale(node.views, (column - left - 2, top - bottom))
+    drawn = _views(node, scale, (left + column - 2) / 2, (bottom, top))
+    under = top - grid_size(tables[0])[1] - 6
+    items = [
+        *drawn,
+        *grid(tables[0], (column, top)),
+        *grid(arms, (column, under), SMALLEST),
+        *_notes(node.notes, column, under - grid_size(arms, SMALLEST)[1] - 8),
+    ]
+    return finish(stationery, Subject("Node", node.row["mark"], scale_text(scale), sheet, sheets), size, items)
+
+
+def _arm_rows(node: NodeDrawing) -> list[tuple[str, ...]]:
+    names = ("azimuth_{}_deg", "elevation_{}_deg", "family_{}", "section_{}")
+    rows = [
+        (str(k), *(node.row[name.format(k)] for name in names), back) for k, back in enumerate(node.set_backs, start=1)
+    ]
+    return [_ARM_HEADING, *rows]
+
+
+def _notes(notes: Sequence[str], left: float, top: float) -> list[Text]:
+    return [Text(note, (left, top - 4.5 * k), SMALL) for k, note in enumerate(notes)]
+
+
+def _scale(views: SolidViews, space: tuple[float, float]) -> float:
+    """Scale at which section and plan stand above each other, with their dimensions, captions and arms."""
+    arms = 2 * (_STUB + 2 * _BALLOON + 1)
+    plan, upright = (np.ptp(np.concatenate(view), axis=0) for view in (views.plan, views.elevation))
+    width, height = max(plan[0], upright[0]), plan[1] + upright[1]
+    return fit_scale(float(width), float(height), (space[0] - arms, space[1] - arms - 2 * FIRST - 25))
+
+
+def _views(node: NodeDrawing, scale: float, x: float, span: tuple[float, float]) -> list[Item]:
+    views, (bottom, top) = node.views, span
+    plan, upright = np.concatenate(views.plan), np.concatenate(views.elevation)
+    arms = _STUB + 2 * _BALLOON
+    low = View(scale, np.zeros(2), np.array([x, bottom + arms - plan[:, 1].min() / scale + 8]))
+    high = View(scale, np.zeros(2), np.array([x, top - FIRST - 14 - upright[:, 1].max() / scale]))
+    captions = [
+        Text("Section A-A", (x, top - NORMAL - 1), NORMAL, "middle"),
+        Text("Plan, seen from outside", (x, bottom), NORMAL, "middle"),
+    ]
+    return [*captions, *_section(node, high), *_plan(node, low)]
+
+
+def _section(node: NodeDrawing, view: View) -> list[Item]:
+    """Draw the section through the axis and arm 1, which lies to the right."""
+    low, high = (view.place(end(np.concatenate(node.views.elevation), axis=0)) for end in (np.min, np.max))
+    elevation = np.radians(float(node.row["elevation_1_deg"]))
+    way = np.array([np.cos(elevation), np.sin(elevation)])
+    start, reach = view.place(np.zeros(2)), float(high[0] - view.at[0]) + _STUB
+    level = np.array([[start[0], start[1]], [start[0] + reach / way[0], start[1]]])
+    diameter = Span(0.0, float(high[0] - low[0]), f"Ø{node.row['drum_diameter_mm']}")
+    height = Span(0.0, float(high[1] - low[1]), node.row["drum_height_mm"])
+    return [
+        *(view.outline(polygon) for polygon in node.views.elevation),
+        *(view.outline(polygon) for polygon in node.views.upright),
+        *hatching(view, node.views.upright),
+        Line("centre", np.array([[view.at[0], low[1] - 4], [view.at[0], high[1] + 4]])),
+        Line("centre", np.array([start, start + reach / way[0] * way])),
+        *([Line("thin", level)] if abs(elevation) > 1e-9 else []),
+        *stack(above(np.array([low[0], high[1]])), [diameter]),
+        *stack(left_of(low), [height]),
+        _arm_text(start + (reach + 1.5) / way[0] * way, float(elevation), "1"),
+    ]
+
+
+def _arm_text(at: Floats, turn: float, text: str) -> Text:
+    """Write the number of an arm behind the end of its line."""
+    down = SMALL / 2 * np.array([-np.sin(turn), np.cos(turn)])
+    return Text(text, point(at - down), SMALL, "start", turn)
+
+
+def _plan(node: NodeDrawing, view: View) -> list[Item]:
+    radius = float(np.hypot(*np.concatenate(node.views.plan).T).max()) / view.scale
+    arms = range(1, int(node.row["valence"]) + 1)
+    cross = [view.at + np.array([[-1, 0], [1, 0]]) * (radius + 3), view.at + np.array([[0, -1], [0, 1]]) * (radius + 3)]
+    ways = [np.radians(float(node.row[f"azimuth_{k}_deg"])) for k in arms]
+    free = [ends for ends, turn in zip(cross, (0, np.pi / 2), strict=True) if not _near(ways, turn)]
+    items = [
+        *(view.outline(polygon) for polygon in node.views.plan),
+        *(view.outline(polygon, "hidden") for polygon in _inner(node.views)),
+        *(Line("centre", ends) for ends in free),
+        *(item for k, way in zip(arms, ways, strict=True) for item in _arm(view.at, float(way), radius, k, node.row)),
+    ]
+    return [*items, *_cutting_plane(view.at, radius, items)]
+
+
+def _near(ways: Sequence[float], turn: float) -> bool:
+    """Tell whether an arm lies so near to a line through the axis that the line would only blur it."""
+    return any(abs(np.sin(way - turn)) < 0.2 for way in ways)
+
+
+def _inner(views: SolidViews) -> Polygons:
+    """Give the section at the work point where the plan does not show it already."""
+    same = abs(_net(views.plan) - _net(views.level)) < 1e-6 * _net(views.plan)
+    return () if same else views.level
+
+
+def _net(polygons: Polygons) -> float:
+    areas = [np.sum(p[:, 0] * np.roll(p[:, 1], -1) - p[:, 1] * np.roll(p[:, 0], -1)) / 2 for p in polygons]
+    return float(np.sum(areas))
+
+
+def _arm(centre: Floats, way: float, radius: float, number: int, row: Row) -> list[Item]:
+    """Draw an arm's line with its azimuth written along it and its number in a circle at its end."""
+    out = np.array([np.cos(way), np.sin(way)])
+    far = centre + (radius + _STUB) * out
+    ring = far + _BALLOON * out
+    turn = way if np.cos(way) > -1e-9 else way - np.pi
+    up = np.array([-np.sin(turn), np.cos(turn)])
+    label = centre + (radius + _STUB / 2 + 0.5) * out + 0.8 * up
+    return [
+        Line("centre", np.array([centre, far])),
+        Arc("thin", point(ring), _BALLOON),
+        Text(str(number), point(ring - np.array([0, SMALL / 2])), SMALL, "middle"),
+        Text(f"{row[f'azimuth_{number}_deg']}°", point(label), SMALLEST, "middle", turn),
+    ]
+
+
+def _cutting_plane(centre: Floats, radius: float, items: Sequence[Item]) -> list[Text]:
+    """Mark the plane of section A-A on both sides, above or below the arm."""
+    x, heights = radius + _STUB + _BALLOON, (-9.0, 6.0, -13.0, 10.0)
+    ends = [[centre + np.array([side * x, y]) for y in heights] for side in (-1, 1)]
+    return place_all([[Text("A", point(at), NORMAL, "middle", bold=True) for at in places] for places in ends], items)
+
+
+def hatching(view: View, polygons: Polygons) -> list[Item]:
+    """Hatch what is cut: thin lines at 45° in outlines (even–odd)."""
+    cut = shapely.Polygon()
+    for polygon in polygons:
+        cut = cut.symmetric_difference(shapely.Polygon(view.place(polygon)).buffer(0))
+    low_x, low_y, high_x, high_y = cut.bounds
+    reach = high_y - low_y
+    steps = np.arange(low_x - reach, high_x, _HATCH * np.sqrt(2)).tolist()
+    lines = shapely.MultiLineString([((x, low_y), (x + reach, high_y)) for x in steps])
+    pieces = shapely.get_parts(lines.intersection(cut))
+    return [Line("thin", shapely.get_coordinates(piece)) for piece in pieces if piece.geom_type == "LineString"]

@@ -1,0 +1,92 @@
+"""Neutral pages: lines by pen, arcs and texts in paper millimetres, the origin at the lower left of the sheet."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from isomould.arrays import Floats, read_only
+
+Pen = Literal["outline", "hidden", "centre", "thin", "frame"]
+"""Visible outlines; hidden ones; centre and system lines; dimensions, hatching and tables; the frame (ISO 128)."""
+
+Anchor = Literal["start", "middle", "end"]
+Paper = Literal["A4", "A3"]
+
+SMALLEST, SMALL, NORMAL, LARGE = 1.8, 2.5, 3.5, 7.0
+"""Heights of capitals (ISO 3098), mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A polyline (n, 2), mm; `filled` closed ones are arrowheads."""
+
+    pen: Pen
+    points: Floats
+    closed: bool = False
+    filled: bool = False
+
+    def __post_init__(self) -> None:
+        read_only(self.points)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """An arc about a centre, counter-clockwise from `start` to `end` (rad); by default a circle."""
+
+    pen: Pen
+    centre: tuple[float, float]
+    radius: float
+    start: float = 0.0
+    end: float = 2 * np.pi
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text; `at` is the point of its baseline that `anchor` says, `turn` its direction (rad)."""
+
+    text: str
+    at: tuple[float, float]
+    height: float = SMALL
+    anchor: Anchor = "start"
+    turn: float = 0.0
+    bold: bool = False
+
+
+Item = Line | Arc | Text
+
+
+@dataclass(frozen=True)
+class Page:
+    """A sheet of paper: its bookmark, its size in mm and what is on it."""
+
+    name: str
+    size: tuple[float, float]
+    items: tuple[Item, ...]
+
+
+@dataclass(frozen=True)
+class Book:
+    """Pages that make one file: `nodes` is written to `drawings/nodes.pdf`."""
+
+    name: str
+    title: str
+    pages: tuple[Page, ...]
+
+
+SIZES: dict[Paper, tuple[float, float]] = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}
+"""Upright sizes, mm."""
+
+BINDING, MARGIN = 20.0, 10.0
+"""From the edge of the paper to the frame: on the left, elsewhere (ISO 5457), mm."""
+
+
+def paper_size(paper: Paper, *, lying: bool) -> tuple[float, float]:
+    """Give width and height of a sheet."""
+    short, long = SIZES[paper]
+    return (long, short) if lying else (short, long)
+
+
+def point(xy: Floats) -> tuple[float, float]:
+    """Give an array (2,) as a pair of floats."""
+    return float(xy[0]), float(xy[1])

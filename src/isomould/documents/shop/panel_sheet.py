@@ -1,0 +1,154 @@
+"""The sheet of a panel class: outline from outside with sides, diagonals, angles and height, mark, data."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Floats
+from isomould.documents.shop.dimensions import Side, Span, right_of, stack
+from isomould.documents.shop.grid import grid, grid_size
+from isomould.documents.shop.page import LARGE, NORMAL, SMALL, SMALLEST, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.placing import place_all, turned
+from isomould.documents.shop.rows import Row, data_rows, length_text
+from isomould.documents.shop.title_block import Stationery, Subject, finish, room
+from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.table import Table
+
+_AROUND = 24.0
+"""Room for the dimensions around the outline, mm."""
+_HEIGHT_OUT = 22.0
+
+
+@dataclass(frozen=True, eq=False)
+class PanelDrawing:
+    """What is drawn of a panel class: its row in the schedule, its outline (n, 2) mm from outside, its make-up."""
+
+    row: Row
+    outline: Floats
+    notes: tuple[str, ...]
+
+
+def panel_sheet(stationery: Stationery, table: Table, panel: PanelDrawing, sheet: int, sheets: int) -> Page:
+    """Draw one panel class."""
+    size = paper_size("A4", lying=True)
+    left, bottom, right, top = room(stationery, size)
+    data = [("Panel", panel.row["mark"]), *data_rows(table, panel.row)]
+    width, height = grid_size(data)
+    space = (right - width - left - 2 * _AROUND - 12, top - bottom - 2 * _AROUND)
+    scale = fit_scale(*np.ptp(panel.outline, axis=0).tolist(), space)
+    view = View(scale, middle(panel.outline), np.array([left + _AROUND + space[0] / 2, (bottom + top) / 2]))
+    items = [
+        *grid(data, (right - width, top)),
+        *_corners(panel, (right - width, top - height - 5)),
+        *_drawn(panel, view),
+        *(Text(note, (left, bottom + 4.5 * k), SMALL) for k, note in enumerate(panel.notes)),
+    ]
+    return finish(stationery, Subject("Panel", panel.row["mark"], scale_text(scale), sheet, sheets), size, items)
+
+
+def _drawn(panel: PanelDrawing, view: View) -> list[Item]:
+    items = [view.outline(panel.outline), *_sides(panel, view), *_height(panel, view), *_diagonals(panel, view)]
+    items += place_all(_angles(panel, view), items)
+    return [*items, *place_all([_marks(panel, view)], items, 1.0)]
+
+
+def _sides(panel: PanelDrawing, view: View) -> list[Item]:
+    start = view.place(panel.outline)
+    way = np.roll(start, -1, axis=0) - start
+    length = np.linalg.norm(way, axis=1)
+    along = way / length[:, None]
+    away = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    texts = _side_texts(panel)
+    return [
+        item
+        for k, text in enumerate(texts)
+        for item in stack(Side(start[k], along[k], away[k]), [Span(0.0, float(length[k]), text)])
+    ]
+
+
+def _side_texts(panel: PanelDrawing) -> list[str]:
+    """Lengths of the sides: as scheduled, or of the outline where the panel is trimmed."""
+    if not panel.row["outline"]:
+        return [panel.row[f"side_{letter}_mm"] for letter in "abcd"]
+    lengths = np.linalg.norm(np.roll(panel.outline, -1, axis=0) - panel.outline, axis=1)
+    return [length_text(length) for length in lengths.tolist()]
+
+
+def _height(panel: PanelDrawing, view: View) -> list[Item]:
+    """Dimension the height over side a, beyond the dimensions of the sides."""
+    if not panel.row["height_mm"]:
+        return []
+    points = view.place(panel.outline)
+    right, low = points[:, 0].max(), points[0, 1]
+    feet = tuple(float(points[k, 0] - right) for k in (1, 2))
+    span = Span(0.0, float(points[2, 1] - low), panel.row["height_mm"], (feet[0], feet[1]))
+    return stack(right_of(np.array([right, low])), [span], first=_HEIGHT_OUT)
+
+
+def _diagonals(panel: PanelDrawing, view: View) -> list[Item]:
+    if len(panel.outline) != 4:
+        return []
+    points = view.place(panel.outline)
+    lengths = np.linalg.norm(panel.outline[[2, 3]] - panel.outline[[0, 1]], axis=1).tolist()
+    texts = [panel.row[f"diagonal_{k}_mm"] or length_text(lengths[k - 1]) for k in (1, 2)]
+    lines: list[Item] = [Line("centre", points[[0, 2]]), Line("centre", points[[1, 3]])]
+    ways = [_along(points[[0, 2]], texts[0]), _along(points[[3, 1]], texts[1])]
+    taken = [view.outline(panel.outline), *lines]
+    return [*lines, *place_all(ways, taken, 0.3)]
+
+
+def _along(ends: Floats, text: str) -> Iterator[Text]:
+    """Places of a text along a line, just above it."""
+    way = ends[1] - ends[0]
+    turn = float(np.arctan2(way[1], way[0]))
+    up = 0.9 * np.array([-np.sin(turn), np.cos(turn)])
+    for share in (0.27, 0.73, 0.33, 0.67, 0.22, 0.78, 0.38, 0.62):
+        yield Text(text, point(ends[0] + share * way + up), SMALL, "middle", turn)
+
+
+def _angles(panel: PanelDrawing, view: View) -> list[list[Text]]:
+    """Places for the angle of every corner: inside along its bisector, then outside between the extension lines."""
+    points = view.place(panel.outline)
+    ahead, behind = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
+    units = [way / np.linalg.norm(way, axis=1)[:, None] for way in (ahead, behind)]
+    bisector = (units[0] + units[1]) / np.linalg.norm(units[0] + units[1], axis=1)[:, None]
+    texts = _angle_texts(panel, units)
+    reaches = (*np.arange(5.0, 25.0, 1.5), *np.arange(-4.0, -22.0, -1.0))
+    drop = np.array([0.0, -SMALLEST / 2])
+    return [
+        [
+            Text(text, point(corner + turned(way, by) * reach + drop), SMALLEST, "middle")
+            for reach in reaches
+            for by in (0.0, 0.35, -0.35)
+        ]
+        for corner, way, text in zip(points, bisector, texts, strict=True)
+    ]
+
+
+def _angle_texts(panel: PanelDrawing, units: Sequence[Floats]) -> list[str]:
+    if not panel.row["outline"]:
+        return [f"{panel.row[f'angle_{k}_deg']}°" for k in range(1, 5)]
+    angles = np.degrees(np.arccos(np.clip(np.sum(units[0] * units[1], axis=1), -1, 1)))
+    return [f"{length_text(angle)}°" for angle in angles.tolist()]
+
+
+def _marks(panel: PanelDrawing, view: View) -> list[Text]:
+    """Places for the mark: the middle, then inside every triangle of the middle and a side, smaller and smaller."""
+    points = view.place(panel.outline)
+    centre = points.mean(axis=0)
+    places = [centre, *((points + np.roll(points, -1, axis=0)) / 2 * 0.55 + centre * 0.45)]
+    drop = np.array([0.0, -0.5])
+    return [
+        Text(panel.row["mark"], point(place + height * drop), height, "middle", bold=True)
+        for height in (LARGE, NORMAL, SMALL)
+        for place in places
+    ]
+
+
+def _corners(panel: PanelDrawing, corner: tuple[float, float]) -> list[Item]:
+    """List the corners of a trimmed panel as scheduled."""
+    if not panel.row["outline"]:
+        return []
+    pairs = [pair.split(",") for pair in panel.row["outline"].split(";")]
+    return grid([("Corner", "x", "y"), *((str(k), x, y) for k, (x, y) in enumerate(pairs, start=1))], corner)

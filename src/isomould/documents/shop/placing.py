@@ -1,0 +1,71 @@
+"""Finding room for texts: the first of some places where a text meets nothing that is drawn already."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from isomould.arrays import Bools, Floats
+from isomould.documents.shop.checks import points_of, text_box
+from isomould.documents.shop.font import depth_below, text_width
+from isomould.documents.shop.page import Item, Line, Text
+
+_LEAST = 1e-12
+_AROUND = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]])
+"""Sides and diagonals of a box: whatever overlaps it meets one of them, or lies in one of its four small triangles."""
+
+
+def segments(items: Iterable[Item]) -> Floats:
+    """Give all lines of items as segments (n, 2, 2); texts as the sides and diagonals of their boxes."""
+    found = [_segments(item) for item in items]
+    return np.concatenate(found) if found else np.empty((0, 2, 2))
+
+
+def _segments(item: Item) -> Floats:
+    if isinstance(item, Text):
+        return text_box(item)[_AROUND]
+    points = points_of(item)
+    return np.stack([points[:-1], points[1:]], axis=1)
+
+
+def free_text(candidates: Iterable[Text], taken: Floats, clear: float = 0.5) -> Text | None:
+    """Give the first candidate that keeps `clear` mm from segments (n, 2, 2), or None."""
+    return next((text for text in candidates if not meets(text, taken, clear).any()), None)
+
+
+def meets(text: Text, taken: Floats, clear: float) -> Bools:
+    """Tell which segments (n, 2, 2) come nearer to the box of a text than `clear`: clipped by its slabs."""
+    low = np.array([-clear - _before(text), -clear - depth_below(text.text, text.height)])
+    high = np.array([text_width(text.text, text.height, bold=text.bold) - _before(text) + clear, text.height + clear])
+    sine, cosine = np.sin(text.turn), np.cos(text.turn)
+    local = (taken - np.array(text.at)) @ np.array([[cosine, -sine], [sine, cosine]])
+    start, way = local[:, 0], local[:, 1] - local[:, 0]
+    way = np.where(np.abs(way) < _LEAST, _LEAST, way)
+    one, other = (low - start) / way, (high - start) / way
+    enter, leave = np.minimum(one, other).max(axis=1), np.maximum(one, other).min(axis=1)
+    return np.maximum(enter, 0.0) <= np.minimum(leave, 1.0)
+
+
+def _before(text: Text) -> float:
+    share = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
+    return share * text_width(text.text, text.height, bold=text.bold)
+
+
+def place_all(ways: Iterable[Iterable[Text]], items: Iterable[Item], clear: float = 0.5) -> list[Text]:
+    """Place one text after the other, each at the first of its ways that is free; those that find none are left out."""
+    taken, found = segments(items), list[Text]()
+    for way in ways:
+        text = free_text(way, taken, clear)
+        if text:
+            found.append(text)
+            taken = np.concatenate([taken, segments([text])])
+    return found
+
+
+def turned(way: Floats, by: float) -> Floats:
+    """Turn a vector (2,) by an angle (rad)."""
+    return np.array([[np.cos(by), -np.sin(by)], [np.sin(by), np.cos(by)]]) @ way
+
+
+def closed(points: Floats) -> Line:
+    """Give a closed outline that only takes room."""
+    return Line("thin", points, closed=True)

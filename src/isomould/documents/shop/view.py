@@ -1,0 +1,58 @@
+"""Views: model millimetres to paper millimetres at a standard scale (ISO 5455)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from isomould.arrays import Floats
+from isomould.documents.numbers import format_number
+from isomould.documents.shop.page import Line, Pen
+
+SCALES = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0)
+"""Model millimetres per millimetre on paper."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """Model point `centre` (2,) lies at `at` (2,) on paper; `scale` model mm are one on paper."""
+
+    scale: float
+    centre: Floats
+    at: Floats
+
+    def place(self, points: Floats) -> Floats:
+        """Give the places (…, 2) on paper of model points (…, 2)."""
+        return (points - self.centre) / self.scale + self.at
+
+    def outline(self, points: Floats, pen: Pen = "outline") -> Line:
+        """Draw a closed outline (n, 2)."""
+        return Line(pen, self.place(points), closed=True)
+
+    def line(self, points: Iterable[Floats], pen: Pen) -> Line:
+        """Draw an open line through model points."""
+        return Line(pen, self.place(np.array(list(points), dtype=float)))
+
+
+def fit_scale(width: float, height: float, room: tuple[float, float]) -> float:
+    """Give the largest standard scale at which width × height (model mm) fits a room (paper mm).
+
+    >>> fit_scale(2400.0, 200.0, (220.0, 60.0))
+    20.0
+    """
+    fitting = (scale for scale in SCALES if width / scale <= room[0] and height / scale <= room[1])
+    return next(fitting, SCALES[-1])
+
+
+def scale_text(scale: float) -> str:
+    """Write a scale.
+
+    >>> scale_text(20.0)
+    '1:20'
+    """
+    return f"1:{format_number(scale)}"
+
+
+def middle(points: Floats) -> Floats:
+    """Give the middle (2,) of the box around points (n, 2)."""
+    return (points.min(axis=0) + points.max(axis=0)) / 2
