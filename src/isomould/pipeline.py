@@ -41,6 +41,8 @@ _LIBRARIES = (
     "XlsxWriter",
     "pydantic",
     "trimesh",
+    "reportlab",
+    "pypdf",
 )
 
 

@@ -44,6 +44,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
             "bar_trim_mm": stock.bar_trim,
         },
         "layers": dict(project.deliver.layers),
+        "drawings": project.deliver.drawings,
         "counts": _counts(design),
         "shapes": [shape.slug for shape in project.shapes],
     }

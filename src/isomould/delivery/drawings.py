@@ -1,56 +1,84 @@
-"""The folder `drawings/`: shop drawings of every class and the general arrangement, as PDF and as DXF."""
+"""The folder `drawings/`: a sheet for every class and the general arrangement, as PDF and as DXF."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 
 from isomould.delivery.goods import Delivery
+from isomould.documents.shop.arrangement import arrangement_pages
 from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet, plate_section
 from isomould.documents.shop.node_sheet import NodeDrawing, node_sheet
 from isomould.documents.shop.page import Book
 from isomould.documents.shop.panel_sheet import PanelDrawing, panel_sheet
 from isomould.documents.shop.rows import length_text, schedule_rows
-from isomould.documents.shop.title_block import Stationery
+from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.documents.table import Table
+from isomould.documents.title_block import heading
 from isomould.parts.kit import Kit
-from isomould.parts.settings import PanelSettings
 from isomould.parts.sections import view_solid
+from isomould.parts.settings import PanelSettings
+from isomould.templates import template_folder
+from isomould.workers import Spread
+from isomould.writers.dxf_pages import write_pages
+from isomould.writers.pdf import write_pdf
+
+Tables = Mapping[str, Table]
 
 
-def make_book(name: str, delivery: Delivery, tables: Mapping[str, Table], stationery: Stationery) -> Book:
-    return _BOOKS[name](delivery, tables, stationery)
+@dataclass(frozen=True)
+class _BookFiles:
+    """A book that is to be written, and where."""
+
+    folder: Path
+    book: Book
+    subject: str
 
 
-def _nodes(delivery: Delivery, tables: Mapping[str, Table], stationery: Stationery) -> Book:
-    rows = schedule_rows(tables["nodes"])
-    kit = delivery.design.kit
-    notes = detail_notes(kit)
-    drawings = [
-        NodeDrawing(row, view_solid(solid), backs, notes)
-        for row, solid, backs in zip(rows, delivery.solids, _set_backs(kit), strict=True)
-    ]
-    pages = [
-        node_sheet(stationery, tables["nodes"], node, k, len(rows)) for k, node in enumerate(drawings, start=1)
-    ]
+def write_drawings(folder: Path, delivery: Delivery, spread: Spread) -> None:
+    """Write the books that the project asks for, side by side."""
+    project = delivery.design.project
+    if project.deliver.drawings:
+        books = make_books(delivery, tables)
+        spread(_write_book, [_BookFiles(folder, book, heading(project.project)) for book in books])
+
+
+def _write_book(files: _BookFiles) -> None:
+    write_pdf(files.folder / f"{files.book.name}.pdf", files.book, files.subject)
+    write_pages(files.folder / f"{files.book.name}.dxf", files.book)
+
+
+def make_books(delivery: Delivery) -> tuple[Book, ...]:
+    """Draw all books of a delivery from its parts and its schedules."""
+    project, named = delivery.design.project, {table.name: table for table in delivery.schedules}
+    block = read_title_block((template_folder() / "sheets" / "title-block.toml").read_text(encoding="utf-8"))
+    paper = None if project.deliver.paper == "auto" else project.deliver.paper
+    return tuple(make(delivery, named, Stationery(block, project.project, paper)) for make in _BOOKS)
+
+
+def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
+    table, kit = tables["nodes"], delivery.design.kit
+    rows, notes = schedule_rows(table), detail_notes(kit)
+    parts = zip(rows, delivery.solids, _set_backs(kit), strict=True)
+    drawn = [NodeDrawing(row, view_solid(solid), backs, notes) for row, solid, backs in parts]
+    pages = [node_sheet(stationery, table, node, k, len(rows)) for k, node in enumerate(drawn, start=1)]
     return Book("nodes", "Nodes", tuple(pages))
 
 
 def _set_backs(kit: Kit) -> list[tuple[str, ...]]:
     """Give the set-backs of the arms of every node class as the members' schedule prints them."""
-    rows = kit.nodes.arm_rows[kit.nodes.classes.representative]
-    members = kit.members
-    return [
-        tuple(length_text(members.shapes[members.classes.of[kit.arms.edge[row]]].set_back[_end(kit, row)]) for row in arms if row >= 0)
-        for arms in rows.tolist()
-    ]
+    rows = kit.nodes.arm_rows[kit.nodes.classes.representative].tolist()
+    return [tuple(length_text(_set_back(kit, row)) for row in arms if row >= 0) for arms in rows]
 
 
-def _end(kit: Kit, row: int) -> int:
-    """Which end of its member's class an arm is: members that lie end for end show their other one."""
-    edge = kit.arms.edge[row]
-    return int(kit.arms.end[row]) ^ int(kit.members.classes.variant[edge] % 2)
+def _set_back(kit: Kit, row: int) -> float:
+    """Set-back of an arm: members that lie end for end show the other end of their class."""
+    members, edge = kit.members, kit.arms.edge[row]
+    end = int(kit.arms.end[row]) ^ int(members.classes.variant[edge] % 2)
+    return members.shapes[members.classes.of[edge]].set_back[end]
 
 
 def detail_notes(kit: Kit) -> tuple[str, ...]:
-    """Say what the views of a slotted node do not dimension."""
+    """Say what the views of a node do not dimension."""
     drum = kit.drum
     return (
         f"Slots {length_text(drum.slot_width)} wide, parallel to the axis",
@@ -59,27 +87,37 @@ def detail_notes(kit: Kit) -> tuple[str, ...]:
     )
 
 
-def _members(delivery: Delivery, tables: Mapping[str, Table], stationery: Stationery) -> Book:
+def _members(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, shapes = tables["members"], delivery.design.kit.members.shapes
     section = delivery.design.project.members.section
     rows, outline = schedule_rows(table), plate_section(section.depth, section.thickness)
-    drawings = [MemberDrawing(row, shape, outline) for row, shape in zip(rows, shapes, strict=True)]
-    pages = [member_sheet(stationery, table, member, k, len(rows)) for k, member in enumerate(drawings, start=1)]
+    drawn = [MemberDrawing(row, shape, outline) for row, shape in zip(rows, shapes, strict=True)]
+    pages = [member_sheet(stationery, table, member, k, len(rows)) for k, member in enumerate(drawn, start=1)]
     return Book("members", "Members", tuple(pages))
 
 
-def _panels(delivery: Delivery, tables: Mapping[str, Table], stationery: Stationery) -> Book:
+def _panels(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, outlines = tables["panels"], delivery.design.kit.panels.outlines
     rows, notes = schedule_rows(table), panel_notes(delivery.design.project.panels)
-    drawings = [PanelDrawing(row, outline, notes) for row, outline in zip(rows, outlines, strict=True)]
-    pages = [panel_sheet(stationery, table, panel, k, len(rows)) for k, panel in enumerate(drawings, start=1)]
+    drawn = [PanelDrawing(row, outline, notes) for row, outline in zip(rows, outlines, strict=True)]
+    pages = [panel_sheet(stationery, table, panel, k, len(rows)) for k, panel in enumerate(drawn, start=1)]
     return Book("panels", "Panels", tuple(pages))
 
 
 def panel_notes(panels: PanelSettings) -> tuple[str, ...]:
     """Say what panels are made of and which side is drawn."""
-    sides = "either side may be outside" if panels.flippable else "seen from outside: the reader looks at the outside"
-    return f"{panels.makeup}, {length_text(panels.thickness)} thick", f"Drawn {sides}"
+    side = "Either side may lie outside" if panels.flippable else "Outside: the side that is seen here"
+    return f"{panels.makeup}, {length_text(panels.thickness)} thick", side
 
 
-_BOOKS = {"nodes": _nodes, "members": _members, "panels": _panels}
+def _arrangement(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
+    kit, rows = delivery.design.kit, schedule_rows(tables["node_instances"])
+    marks = {
+        where: parts.marks[k]
+        for parts in (kit.members, kit.panels)
+        for k, where in zip(parts.classes.of.tolist(), parts.locations, strict=True)
+    }
+    return Book("general-arrangement", "General arrangement", arrangement_pages(stationery, kit, rows, marks))
+
+
+_BOOKS: tuple[Callable[[Delivery, Tables, Stationery], Book], ...] = (_nodes, _members, _panels, _arrangement)

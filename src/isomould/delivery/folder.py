@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from isomould.delivery.drawings import write_drawings
 from isomould.delivery.goods import Delivery
 from isomould.delivery.machine import write_machine_files, write_setting_out, write_strips
 from isomould.delivery.model import write_model
@@ -19,5 +20,6 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     write_part_solids(folder, delivery)
     write_schedules(folder, delivery)
     write_bars(folder / "bars" / "bars.csv", delivery)
+    write_drawings(folder / "drawings", delivery, spread)
     write_strips(folder / "strips", delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

@@ -71,7 +71,8 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     """Give the tables of the schedules, in the order of the workbook."""
     design, cutting = delivery.design, delivery.cutting
     settings = kit_settings(design.project)
-    tables = part_tables(design.kit, settings, delivery.solids, cutting.placed, cutting.positions)
+    drawn = design.project.deliver.drawings
+    tables = part_tables(design.kit, settings, delivery.solids, cutting.placed, cutting.positions, drawn=drawn)
     sheets = sheet_table(cutting.sheets, cutting.stock)
     bars = (bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()
     strips = (strip_table(delivery.strips),) if delivery.strips else ()

@@ -42,6 +42,8 @@ def part_tables(
     solids: tuple[Solid, ...],
     placed: dict[str, Placed],
     bars: dict[str, tuple[str, float]],
+    *,
+    drawn: bool = False,
 ) -> tuple[Table, ...]:
     """Give the tables of nodes, members and panels, classes and instances.
 
@@ -53,19 +55,21 @@ def part_tables(
         Sheet and place of every panel location.
     bars
         Bar and position (mm) of every member location; empty without bars in stock.
+    drawn
+        Whether there are shop drawings to name.
     """
     around = find_neighbours(kit.mesh, kit.nodes.arm_rows, kit.arms, kit.panels.edges)
     return (
-        make_table("nodes", _nodes(kit, settings, solids)),
+        make_table("nodes", _nodes(kit, settings, solids, drawn=drawn)),
         make_table("node_instances", _node_instances(kit, around)),
-        make_table("members", _members(kit, settings)),
+        make_table("members", _members(kit, settings, drawn=drawn)),
         make_table("member_instances", _member_instances(kit, around, bars)),
-        make_table("panels", _panels(kit, settings.panels)),
+        make_table("panels", _panels(kit, settings.panels, drawn=drawn)),
         make_table("panel_instances", _panel_instances(kit, placed)),
     )
 
 
-def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Columns:
+def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn: bool) -> Columns:
     nodes, drum, asked = kit.nodes, kit.drum, settings.nodes
     count = len(nodes.marks)
     volume = np.array([solid.volume for solid in solids])
@@ -97,7 +101,7 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> Column
         "max_deviation_mm": (deviation * drum.radius).tolist(),
         "max_deviation_deg": np.degrees(deviation).tolist(),
         "solid_file": [f"nodes/{mark}.3mf" for mark in nodes.marks],
-        "drawing_file": [f"nodes/{mark}.dxf" for mark in nodes.marks],
+        "drawing_file": _files("nodes", nodes.marks, drawn=drawn),
     }
 
 
@@ -111,6 +115,21 @@ def _base_columns(kit: Kit, density: float) -> Columns:
         "base_holes": [base and len(base.holes) for base in kit.bases],
         "base_mass_kg": [base and base.volume * density * _KG_PER_MM3 for base in kit.bases],
     }
+
+
+def sheet_of(book: str, number: int) -> str:
+    """Name the sheet of a class, counted from 0, in the book of its kind.
+
+    >>> sheet_of("nodes", 2)
+    'drawings/nodes.pdf#page=3'
+    """
+    return f"drawings/{book}.pdf#page={number + 1}"
+
+
+def _files(kind: str, marks: Sequence[str], *, drawn: bool) -> list[str]:
+    """Name the files of every class: its machine file, and its sheet where there are drawings."""
+    sheets = [[sheet_of(kind, k)] if drawn else [] for k in range(len(marks))]
+    return [";".join([f"{kind}/{mark}.dxf", *sheet]) for mark, sheet in zip(marks, sheets, strict=True)]
 
 
 def _arm_columns(kit: Kit, section: str) -> Columns:
@@ -169,7 +188,7 @@ def _lists(names: np.ndarray, rows: Ints, kept: np.ndarray | None = None) -> lis
     ]
 
 
-def _members(kit: Kit, settings: KitSettings) -> Columns:
+def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
     members, asked = kit.members, settings.members
     shapes, thickness = members.shapes, asked.section.thickness
     return {
@@ -188,7 +207,7 @@ def _members(kit: Kit, settings: KitSettings) -> Columns:
         "set_back_end_mm": [shape.set_back[1] for shape in shapes],
         "mass_kg": [shape.area * thickness * asked.density * _KG_PER_MM3 for shape in shapes],
         "coated_area_m2": [(2 * shape.area + shape.perimeter * thickness) / 1e6 for shape in shapes],
-        "files": [f"members/{mark}.dxf" for mark in members.marks],
+        "files": _files("members", members.marks, drawn=drawn),
     }
 
 
@@ -210,7 +229,7 @@ def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, f
     }
 
 
-def _panels(kit: Kit, settings: PanelSettings) -> Columns:
+def _panels(kit: Kit, settings: PanelSettings, *, drawn: bool) -> Columns:
     panels = kit.panels
     first = panels.classes.representative
     whole = ((kit.mesh.face_piece == 0) & (kit.mesh.sizes == 4))[first].tolist()
@@ -229,7 +248,7 @@ def _panels(kit: Kit, settings: PanelSettings) -> Columns:
         "box_height_mm": size[:, 1].tolist(),
         "mass_kg": (areas * settings.thickness / 1e3 * settings.density).tolist(),
         "handed": list(panels.handed),
-        "files": [f"panels/{mark}.dxf" for mark in panels.marks],
+        "files": _files("panels", panels.marks, drawn=drawn),
     }
 
 

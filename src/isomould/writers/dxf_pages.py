@@ -41,9 +41,7 @@ def write_pages(path: Path, book: Book) -> None:
         If the file cannot be written.
     """
     lefts = np.cumsum([0.0, *(page.size[0] + _BETWEEN for page in book.pages)]).tolist()
-    bodies = [
-        _body(item, left) for page, left in zip(book.pages, lefts, strict=False) for item in page.items
-    ]
+    bodies = [_body(item, left) for page, left in zip(book.pages, lefts, strict=False) for item in page.items]
     with fixed_meta_data():
         write_bytes(path, _document(bodies, (lefts[-1], max(page.size[1] for page in book.pages))))
 
@@ -81,28 +79,28 @@ def _(item: Line, left: float) -> Body:
     layer, points = _LAYERS[item.pen][0], (item.points + np.array([left, 0.0])).tolist()
     if item.filled:
         corners = zip(range(10, 14), (*points, points[-1]), strict=True)
-        tags = "".join(f" {code}\n{x:.6g}\n {code + 10}\n{y:.6g}\n {code + 20}\n0\n" for code, (x, y) in corners)
+        tags = "".join(f" {code}\n{x:.4f}\n {code + 10}\n{y:.4f}\n {code + 20}\n0\n" for code, (x, y) in corners)
         return "SOLID", layer, f"100\nAcDbTrace\n{tags}"
-    vertices = "".join(f" 10\n{x:.9g}\n 20\n{y:.9g}\n" for x, y in points)
+    vertices = "".join(f" 10\n{x:.4f}\n 20\n{y:.4f}\n" for x, y in points)
     return "LWPOLYLINE", layer, f"100\nAcDbPolyline\n 90\n{len(points)}\n 70\n{int(item.closed)}\n{vertices}"
 
 
 @_body.register
 def _(item: Arc, left: float) -> Body:
     layer, (x, y) = _LAYERS[item.pen][0], item.centre
-    circle = f"100\nAcDbCircle\n 10\n{x + left:.9g}\n 20\n{y:.9g}\n 30\n0\n 40\n{item.radius:.9g}\n"
+    circle = f"100\nAcDbCircle\n 10\n{x + left:.4f}\n 20\n{y:.4f}\n 30\n0\n 40\n{item.radius:.4f}\n"
     if item.end - item.start >= 2 * math.pi:
         return "CIRCLE", layer, circle
     start, end = math.degrees(item.start) % 360, math.degrees(item.end) % 360
-    return "ARC", layer, f"{circle}100\nAcDbArc\n 50\n{start:.9g}\n 51\n{end:.9g}\n"
+    return "ARC", layer, f"{circle}100\nAcDbArc\n 50\n{start:.4f}\n 51\n{end:.4f}\n"
 
 
 @_body.register
 def _(item: Text, left: float) -> Body:
     back = _SHARE[item.anchor] * text_width(item.text, item.height, bold=item.bold)
     x, y = item.at[0] - back * math.cos(item.turn) + left, item.at[1] - back * math.sin(item.turn)
-    place = f" 10\n{x:.9g}\n 20\n{y:.9g}\n 30\n0\n 40\n{item.height:.6g}\n  1\n{_plain(item.text)}\n"
-    turned = f"{place} 50\n{math.degrees(item.turn):.9g}\n  7\n{_STYLE}\n"
+    place = f" 10\n{x:.4f}\n 20\n{y:.4f}\n 30\n0\n 40\n{item.height:.4f}\n  1\n{_plain(item.text)}\n"
+    turned = f"{place} 50\n{math.degrees(item.turn):.4f}\n  7\n{_STYLE}\n"
     return "TEXT", _TEXT_LAYER, f"100\nAcDbText\n{turned}100\nAcDbText\n"
 
 

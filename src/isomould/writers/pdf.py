@@ -5,6 +5,7 @@ import math
 from functools import singledispatch
 from pathlib import Path
 
+from reportlab import rl_config
 from reportlab.pdfgen.canvas import Canvas
 
 from isomould.documents.shop.font import font_size, text_width
@@ -27,8 +28,9 @@ def write_pdf(path: Path, book: Book, subject: str) -> None:
     OutputFault
         If the file cannot be written.
     """
+    rl_config.useA85 = 0  # the streams need not be text
     stream = io.BytesIO()
-    canvas = Canvas(stream, invariant=1, pageCompression=1, initialFontName="Helvetica")
+    canvas = Canvas(stream, invariant=1, pageCompression=1)
     canvas.setTitle(book.title)
     canvas.setSubject(subject)
     canvas.setCreator("isomould")
@@ -50,9 +52,7 @@ def _add_page(canvas: Canvas, page: Page) -> None:
         for item in page.items:
             if not isinstance(item, Text) and item.pen == pen:
                 _draw(item, canvas)
-    for item in page.items:
-        if isinstance(item, Text):
-            _draw(item, canvas)
+    _write_texts(canvas, [item for item in page.items if isinstance(item, Text)])
     canvas.showPage()
 
 
@@ -81,17 +81,26 @@ def _(item: Line, canvas: Canvas) -> None:
 @_draw.register
 def _(item: Arc, canvas: Canvas) -> None:
     (x, y), r = item.centre, item.radius
+    angles = math.degrees(item.start), math.degrees(item.end - item.start)
     path = canvas.beginPath()
-    path.arc(x - r, y - r, x + r, y + r, math.degrees(item.start), math.degrees(item.end - item.start))
-    canvas.drawPath(path)
+    path.arc(x - r, y - r, x + r, y + r, *angles)  # pyright: ignore[reportArgumentType] - floats are drawn
 
 
-@_draw.register
-def _(item: Text, canvas: Canvas) -> None:
-    canvas.setFont("Helvetica-Bold" if item.bold else "Helvetica", font_size(item.height))
-    back = _SHARE[item.anchor] * text_width(item.text, item.height, bold=item.bold)
-    cosine, sine = math.cos(item.turn), math.sin(item.turn)
-    text = canvas.beginText()
-    text.setTextTransform(cosine, sine, -sine, cosine, item.at[0] - back * cosine, item.at[1] - back * sine)
-    text.textOut(item.text)
-    canvas.drawText(text)
+def _write_texts(canvas: Canvas, texts: list[Text]) -> None:
+    """Write all texts of a page in one text object, those of one font after each other."""
+    block, font = canvas.beginText(), ("", 0.0)
+    for text in sorted(texts, key=lambda text: (text.bold, text.height)):
+        own = ("Helvetica-Bold" if text.bold else "Helvetica", font_size(text.height))
+        if own != font:
+            block.setFont(*own)
+            font = own
+        block.setTextTransform(*_placed(text))
+        block.textOut(text.text)
+    canvas.drawText(block)
+
+
+def _placed(text: Text) -> tuple[float, float, float, float, float, float]:
+    """Give the matrix of a text: its direction and the start of its baseline."""
+    back = _SHARE[text.anchor] * text_width(text.text, text.height, bold=text.bold)
+    cosine, sine = math.cos(text.turn), math.sin(text.turn)
+    return cosine, sine, -sine, cosine, text.at[0] - back * cosine, text.at[1] - back * sine

@@ -32,3 +32,7 @@ class DeliverSettings(Settings):
     double_layer: DoubleLayerSettings | None = None
     compare: Flag = False
     """Schedule the same surface as every mesh family."""
+    drawings: Flag = True
+    """Whether shop drawings are written."""
+    paper: Literal["auto", "A4", "A3"] = "auto"
+    """Of the shop drawings; by default A4 where parts are drawn at 1:20 or larger, else A3."""

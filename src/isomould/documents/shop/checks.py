@@ -1,4 +1,4 @@
-"""Proof that a page can be read: no text on another, none crossed by a line, none beyond the frame (failure mode G7)."""
+"""Proof that a page can be read: no text on another, none crossed by a line, none off the sheet (failure mode G7)."""
 
 from collections.abc import Iterable
 
@@ -25,7 +25,7 @@ def text_box(text: Text) -> Floats:
 def clashes(page: Page) -> tuple[str, ...]:
     """Name the texts of a page that overlap another text or a line, or leave the sheet."""
     texts = [item for item in page.items if isinstance(item, Text)]
-    boxes = shapely.polygons(np.array([text_box(text) for text in texts]))
+    boxes = [shapely.Polygon(text_box(text)) for text in texts]
     lines = lines_of(page.items)
     crossing = shapely.STRtree(lines).query(boxes, predicate="intersects")[0].tolist()
     one, other = shapely.STRtree(boxes).query(boxes, predicate="intersects")
@@ -44,7 +44,7 @@ def lines_of(items: Iterable[Item]) -> list[shapely.LineString]:
 
 
 def points_of(item: Line | Arc) -> Floats:
-    """Give the points (n, 2) that a line runs through, the first once more where it is closed; of an arc, its chords."""
+    """Give the points (n, 2) that a line runs through, the first again where it is closed; of an arc, its chords."""
     if isinstance(item, Line):
         return np.concatenate([item.points, item.points[:1]]) if item.closed else item.points
     angle = np.linspace(item.start, item.end, _CHORDS + 1)

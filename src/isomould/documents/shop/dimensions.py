@@ -10,7 +10,7 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.documents.shop.font import text_width
-from isomould.documents.shop.page import SMALL, Item, Line, Text, point
+from isomould.documents.shop.page import SMALL, Item, Line, Text, point, reading
 
 FIRST, PITCH = 9.0, 7.0
 """From the side to the first row of dimensions, and from row to row, mm."""
@@ -34,8 +34,7 @@ class Side:
     @property
     def turn(self) -> float:
         """Direction (rad) of texts, to be read from below or from the right."""
-        angle = float(np.arctan2(self.along[1], self.along[0]))
-        return angle - np.pi * np.sign(angle) if abs(angle) > np.pi / 2 + 1e-9 or angle < -np.pi / 2 + 1e-9 else angle
+        return reading(float(np.arctan2(self.along[1], self.along[0])))
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,9 @@ def grid(
     (left, top), pitch, widths = corner, _pitch(height), _widths(rows, height)
     edges = left + np.concatenate([[0.0], np.cumsum(widths)])
     bottom = top - len(rows) * pitch
-    items: list[Item] = [Line("thin", np.array([[x, top], [x, bottom]])) for x in edges.tolist()]
-    for k in range(len(rows) + 1):
-        items.append(Line("thin", np.array([[left, top - k * pitch], [edges[-1], top - k * pitch]])))
+    rules = [np.array([[x, top], [x, bottom]]) for x in edges.tolist()]
+    rules += [np.array([[left, y], [edges[-1], y]]) for y in (top - pitch * np.arange(len(rows) + 1)).tolist()]
+    items: list[Item] = [Line("thin", rule) for rule in rules]
     for k, row in enumerate(rows):
         base = top - (k + 1) * pitch + (pitch - height) / 2
         cells = zip(row, edges.tolist(), edges[1:].tolist(), strict=False)

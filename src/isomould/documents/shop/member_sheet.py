@@ -12,7 +12,7 @@ from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import NORMAL, SMALLEST, Arc, Item, Line, Page, Text, paper_size, point
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
-from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.shop.view import View, choose_paper, fit_scale, scale_text
 from isomould.documents.table import Table
 from isomould.parts.features import Hole
 from isomould.parts.members import MemberShape
@@ -20,6 +20,7 @@ from isomould.parts.members import MemberShape
 _END_SHARE = 0.75
 """How much of an end is enlarged, in depths of the section."""
 _END_ROOM = (48.0, 42.0)
+_A4_WIDTH = 257.0
 _LEVEL = 0.0015
 """Corners on one level line, each rounded to 0.001 mm, mm."""
 _HOLE_HEADING = ("Hole", "Face", "x", "y", "Ø", "Slot", "Thread")
@@ -36,12 +37,12 @@ class MemberDrawing:
 
 def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sheet: int, sheets: int) -> Page:
     """Draw one member class."""
-    size = paper_size("A4", lying=True)
+    size = paper_size(choose_paper(stationery.paper, _scale(member, _A4_WIDTH)), lying=True)
     left, bottom, right, top = room(stationery, size)
     data = [("Member", member.row["mark"]), *data_rows(table, member.row)]
     width, height = grid_size(data)
     scale = _scale(member, right - left)
-    ends = fit_scale(_END_SHARE * _depth(member), _depth(member), _END_ROOM)
+    ends = fit_scale((_END_SHARE * _depth(member), _depth(member)), _END_ROOM)
     low = bottom + 24.0
     items = [
         *grid(data, (right - width, bottom + height)),
@@ -61,11 +62,11 @@ def _depth(member: MemberDrawing) -> float:
 
 def _scale(member: MemberDrawing, width: float) -> float:
     length = max(member.shape.system_length, member.shape.cut_length)
-    return fit_scale(length, _depth(member), (width - 25.0, 24.0))
+    return fit_scale((length, _depth(member)), (width - 25.0, 24.0))
 
 
 def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -> list[Item]:
-    """Draw the member with start node at the left, outside up, its lengths and set-backs; `head` is its upper middle."""
+    """Draw the member with its start at the left, outside up, lengths and set-backs; `head` is its upper middle."""
     outline, length = member.shape.outline, member.shape.system_length
     view = View(scale, np.array([length / 2, outline[:, 1].max()]), np.array([head[0], 0.0]))
     over, under = _spans_above(member, view), _spans_below(member, view)
@@ -83,7 +84,7 @@ def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -
     ]
 
 
-def _level(outline: Floats, top: bool) -> Floats:  # noqa: FBT001
+def _level(outline: Floats, top: bool) -> Floats:
     """Least and greatest x of the corners on the top (bottom) edge."""
     y = outline[:, 1] if top else -outline[:, 1]
     x = outline[y > y.max() - _LEVEL, 0]
@@ -143,7 +144,9 @@ def _clipped(view: View, outline: Floats, x: float) -> list[Item]:
     low, high = outline.min(axis=0) - 1.0, outline.max(axis=0) + 1.0
     kept = shapely.box(low[0], low[1], x, high[1]) if x - low[0] < high[0] - x else shapely.box(x, low[1], *high)
     edges = shapely.get_parts(shapely.line_merge(kept.intersection(shapely.LinearRing(outline))))
-    cut = shapely.get_coordinates(shapely.Polygon(outline).intersection(shapely.LineString([(x, low[1]), (x, high[1])])))
+    cut = shapely.get_coordinates(
+        shapely.Polygon(outline).intersection(shapely.LineString([(x, low[1]), (x, high[1])]))
+    )
     return [*(view.line(shapely.get_coordinates(edge), "outline") for edge in edges), view.line(cut, "centre")]
 
 
@@ -174,7 +177,11 @@ def _hole(view: View, hole: Hole) -> list[Item]:
         return [Arc("outline", point(centre), radius), *axes]
     ends = [Arc("outline", point(centre + half), radius, -np.pi / 2, np.pi / 2)]
     ends += [Arc("outline", point(centre - half), radius, np.pi / 2, 3 * np.pi / 2)]
-    return [*ends, *(Line("outline", np.array([centre - half + s * up, centre + half + s * up])) for s in (-1, 1)), *axes]
+    return [
+        *ends,
+        *(Line("outline", np.array([centre - half + s * up, centre + half + s * up])) for s in (-1, 1)),
+        *axes,
+    ]
 
 
 def _hole_places(shape: MemberShape, view: View, low: float) -> list[Item]:

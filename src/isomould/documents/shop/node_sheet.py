@@ -9,11 +9,23 @@ import shapely
 from isomould.arrays import Floats
 from isomould.documents.shop.dimensions import FIRST, Span, above, left_of, stack
 from isomould.documents.shop.grid import grid, grid_size
-from isomould.documents.shop.page import NORMAL, SMALL, SMALLEST, Arc, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.page import (
+    NORMAL,
+    SMALL,
+    SMALLEST,
+    Arc,
+    Item,
+    Line,
+    Page,
+    Text,
+    paper_size,
+    point,
+    reading,
+)
 from isomould.documents.shop.placing import place_all
 from isomould.documents.shop.rows import Row, data_rows
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
-from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.shop.view import View, fit_scale, scale_text
 from isomould.documents.table import Table
 from isomould.parts.sections import Polygons, SolidViews
 
@@ -35,7 +47,7 @@ class NodeDrawing:
 
 def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: int, sheets: int) -> Page:
     """Draw one node class."""
-    size = paper_size("A4", lying=False)
+    size = paper_size(stationery.paper or "A4", lying=False)
     left, bottom, right, top = room(stationery, size)
     arms = _arm_rows(node)
     data = data_rows(table, node.row)
@@ -70,7 +82,7 @@ def _scale(views: SolidViews, space: tuple[float, float]) -> float:
     arms = 2 * (_STUB + 2 * _BALLOON + 1)
     plan, upright = (np.ptp(np.concatenate(view), axis=0) for view in (views.plan, views.elevation))
     width, height = max(plan[0], upright[0]), plan[1] + upright[1]
-    return fit_scale(float(width), float(height), (space[0] - arms, space[1] - arms - 2 * FIRST - 25))
+    return fit_scale((float(width), float(height)), (space[0] - arms, space[1] - arms - 2 * FIRST - 25))
 
 
 def _views(node: NodeDrawing, scale: float, x: float, span: tuple[float, float]) -> list[Item]:
@@ -150,7 +162,7 @@ def _arm(centre: Floats, way: float, radius: float, number: int, row: Row) -> li
     out = np.array([np.cos(way), np.sin(way)])
     far = centre + (radius + _STUB) * out
     ring = far + _BALLOON * out
-    turn = way if np.cos(way) > -1e-9 else way - np.pi
+    turn = reading(way)
     up = np.array([-np.sin(turn), np.cos(turn)])
     label = centre + (radius + _STUB / 2 + 0.5) * out + 0.8 * up
     return [

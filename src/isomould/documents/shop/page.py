@@ -90,3 +90,18 @@ def paper_size(paper: Paper, *, lying: bool) -> tuple[float, float]:
 def point(xy: Floats) -> tuple[float, float]:
     """Give an array (2,) as a pair of floats."""
     return float(xy[0]), float(xy[1])
+
+
+_FLIP = np.radians(105.0)
+"""Texts read from below or from the right; those that lean a little beyond the upright stay as they are."""
+
+
+def reading(angle: float) -> float:
+    """Give the direction (rad, of two opposite ones) in which a text along a line is read.
+
+    >>> print(round(reading(np.pi), 6), round(reading(1.6), 6), round(reading(-1.5), 6))
+    0.0 1.6 1.641593
+    """
+    turned = float(np.mod(angle, 2 * np.pi))
+    turned = turned - 2 * np.pi if turned > _FLIP + np.pi else turned
+    return turned if turned <= _FLIP else turned - np.pi

@@ -9,15 +9,16 @@ from isomould.arrays import Floats
 from isomould.documents.shop.dimensions import Side, Span, right_of, stack
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import LARGE, NORMAL, SMALL, SMALLEST, Item, Line, Page, Text, paper_size, point
-from isomould.documents.shop.placing import place_all, turned
+from isomould.documents.shop.placing import place_all
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
-from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.shop.view import View, choose_paper, fit_scale, middle, scale_text
 from isomould.documents.table import Table
 
 _AROUND = 24.0
 """Room for the dimensions around the outline, mm."""
 _HEIGHT_OUT = 22.0
+_A4_ROOM = (130.0, 100.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +32,13 @@ class PanelDrawing:
 
 def panel_sheet(stationery: Stationery, table: Table, panel: PanelDrawing, sheet: int, sheets: int) -> Page:
     """Draw one panel class."""
-    size = paper_size("A4", lying=True)
+    rough = fit_scale(np.ptp(panel.outline, axis=0), _A4_ROOM)
+    size = paper_size(choose_paper(stationery.paper, rough), lying=True)
     left, bottom, right, top = room(stationery, size)
     data = [("Panel", panel.row["mark"]), *data_rows(table, panel.row)]
     width, height = grid_size(data)
     space = (right - width - left - 2 * _AROUND - 12, top - bottom - 2 * _AROUND)
-    scale = fit_scale(*np.ptp(panel.outline, axis=0).tolist(), space)
+    scale = fit_scale(np.ptp(panel.outline, axis=0), space)
     view = View(scale, middle(panel.outline), np.array([left + _AROUND + space[0] / 2, (bottom + top) / 2]))
     items = [
         *grid(data, (right - width, top)),
@@ -107,23 +109,22 @@ def _along(ends: Floats, text: str) -> Iterator[Text]:
         yield Text(text, point(ends[0] + share * way + up), SMALL, "middle", turn)
 
 
-def _angles(panel: PanelDrawing, view: View) -> list[list[Text]]:
+def _angles(panel: PanelDrawing, view: View) -> list[Iterator[Text]]:
     """Places for the angle of every corner: inside along its bisector, then outside between the extension lines."""
     points = view.place(panel.outline)
     ahead, behind = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
     units = [way / np.linalg.norm(way, axis=1)[:, None] for way in (ahead, behind)]
-    bisector = (units[0] + units[1]) / np.linalg.norm(units[0] + units[1], axis=1)[:, None]
+    bisector = units[0] + units[1]
     texts = _angle_texts(panel, units)
-    reaches = (*np.arange(5.0, 25.0, 1.5), *np.arange(-4.0, -22.0, -1.0))
-    drop = np.array([0.0, -SMALLEST / 2])
-    return [
-        [
-            Text(text, point(corner + turned(way, by) * reach + drop), SMALLEST, "middle")
-            for reach in reaches
-            for by in (0.0, 0.35, -0.35)
-        ]
-        for corner, way, text in zip(points, bisector, texts, strict=True)
-    ]
+    return [_near_corner(*each) for each in zip(points, bisector, texts, strict=True)]
+
+
+def _near_corner(corner: Floats, bisector: Floats, text: str) -> Iterator[Text]:
+    start = float(np.arctan2(bisector[1], bisector[0]))
+    for reach in (*np.arange(5.0, 25.0, 1.5).tolist(), *np.arange(-4.0, -22.0, -1.0).tolist()):
+        for way in (start, start + 0.35, start - 0.35):
+            at = (corner[0] + reach * np.cos(way), corner[1] + reach * np.sin(way) - SMALLEST / 2)
+            yield Text(text, (float(at[0]), float(at[1])), SMALLEST, "middle")
 
 
 def _angle_texts(panel: PanelDrawing, units: Sequence[Floats]) -> list[str]:

@@ -7,7 +7,7 @@ import numpy as np
 from isomould.arrays import Bools, Floats
 from isomould.documents.shop.checks import points_of, text_box
 from isomould.documents.shop.font import depth_below, text_width
-from isomould.documents.shop.page import Item, Line, Text
+from isomould.documents.shop.page import Item, Text
 
 _LEAST = 1e-12
 _AROUND = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]])
@@ -59,13 +59,3 @@ def place_all(ways: Iterable[Iterable[Text]], items: Iterable[Item], clear: floa
             found.append(text)
             taken = np.concatenate([taken, segments([text])])
     return found
-
-
-def turned(way: Floats, by: float) -> Floats:
-    """Turn a vector (2,) by an angle (rad)."""
-    return np.array([[np.cos(by), -np.sin(by)], [np.sin(by), np.cos(by)]]) @ way
-
-
-def closed(points: Floats) -> Line:
-    """Give a closed outline that only takes room."""
-    return Line("thin", points, closed=True)

@@ -9,7 +9,9 @@ from isomould.documents.table import Cell, Table, cells
 Row = Mapping[str, str]
 """The texts of one row by column; a blank is empty."""
 
-_NOT_SHOWN = re.compile(r"mark|outline|max_deviation_\w+|files?|\w+_file|(azimuth|elevation)_\d+_deg|(family|section)_\d+")
+_NOT_SHOWN = re.compile(
+    r"mark|outline|max_deviation_\w+|files?|\w+_file|(azimuth|elevation)_\d+_deg|(family|section)_\d+"
+)
 
 
 def schedule_rows(table: Table) -> list[Row]:

@@ -10,7 +10,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.documents.info import ProjectInfo
 from isomould.documents.shop.font import depth_below, text_width
-from isomould.documents.shop.page import BINDING, MARGIN, SMALLEST, Arc, Item, Line, Page, Text
+from isomould.documents.shop.page import BINDING, MARGIN, SMALLEST, Arc, Item, Line, Page, Paper, Text
 from isomould.settings import Settings
 
 Value = Literal[
@@ -56,6 +56,8 @@ class Stationery:
 
     block: TitleBlock
     info: ProjectInfo
+    paper: Paper | None = None
+    """What all sheets are drawn on; None chooses by content."""
 
 
 def read_title_block(text: str) -> TitleBlock:
@@ -113,9 +115,7 @@ def _lines(text: str, cell: Cell, x: float, y: float) -> list[Text]:
     ways = ((height, _wrap(text, height, room_across)) for height in [*heights, *(SMALLEST / k for k in range(2, 20))])
     height, lines = next(way for way in ways if len(way[1]) * _SPACING * way[0] <= room_up)
     bottom = y + max(depth_below(lines[-1], height), 0.25 * height) + 0.4
-    return [
-        Text(line, (x, bottom + (len(lines) - 1 - k) * _SPACING * height), height) for k, line in enumerate(lines)
-    ]
+    return [Text(line, (x, bottom + (len(lines) - 1 - k) * _SPACING * height), height) for k, line in enumerate(lines)]
 
 
 def _wrap(text: str, height: float, width: float) -> list[str]:
@@ -140,7 +140,11 @@ def _pieces(word: str, height: float, width: float) -> list[str]:
 def _symbol(x: float, y: float) -> list[Item]:
     """Draw the symbol of first-angle projection: the cone from the side, and to its right as seen from its left."""
     cone = np.array([[x - 8, y - 1.2], [x - 2.5, y - 2.4], [x - 2.5, y + 2.4], [x - 8, y + 1.2]])
-    axes = [np.array([[x - 9, y], [x - 1.5, y]]), np.array([[x, y], [x + 6, y]]), np.array([[x + 3, y - 3], [x + 3, y + 3]])]
+    axes = [
+        np.array([[x - 9, y], [x - 1.5, y]]),
+        np.array([[x, y], [x + 6, y]]),
+        np.array([[x + 3, y - 3], [x + 3, y + 3]]),
+    ]
     rings = [Arc("outline", (float(x) + 3, float(y)), radius) for radius in (1.2, 2.4)]
     return [Line("outline", cone, closed=True), *rings, *(Line("centre", axis) for axis in axes)]
 

@@ -7,10 +7,13 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.documents.numbers import format_number
-from isomould.documents.shop.page import Line, Pen
+from isomould.documents.shop.page import Line, Paper, Pen
 
 SCALES = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0)
 """Model millimetres per millimetre on paper."""
+
+_SMALL_ENOUGH = 20.0
+"""Coarsest scale that is drawn on A4 while A3 would be finer."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,14 +37,19 @@ class View:
         return Line(pen, self.place(np.array(list(points), dtype=float)))
 
 
-def fit_scale(width: float, height: float, room: tuple[float, float]) -> float:
-    """Give the largest standard scale at which width × height (model mm) fits a room (paper mm).
+def fit_scale(extent: tuple[float, float] | Floats, room: tuple[float, float]) -> float:
+    """Give the largest standard scale at which an extent in x and y (model mm) fits a room (paper mm).
 
-    >>> fit_scale(2400.0, 200.0, (220.0, 60.0))
+    >>> fit_scale((2400.0, 200.0), (220.0, 60.0))
     20.0
     """
-    fitting = (scale for scale in SCALES if width / scale <= room[0] and height / scale <= room[1])
+    fitting = (scale for scale in SCALES if extent[0] / scale <= room[0] and extent[1] / scale <= room[1])
     return next(fitting, SCALES[-1])
+
+
+def choose_paper(asked: Paper | None, scale_on_a4: float) -> Paper:
+    """Give the paper that was asked for, else A4 where the scale there is 1:20 or larger."""
+    return asked or ("A4" if scale_on_a4 <= _SMALL_ENOUGH else "A3")
 
 
 def scale_text(scale: float) -> str:
