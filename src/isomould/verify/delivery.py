@@ -11,8 +11,10 @@ from isomould.errors import OutputFault
 from isomould.verify.read.design import Design, read_design
 from isomould.verify.read.dxf import Drawing, read_dxf, with_layers
 from isomould.verify.read.glb import Model, read_glb
+from isomould.verify.read.dxf_texts import read_dxf_texts
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
+from isomould.verify.read.pdf import Book, read_pdf
 from isomould.verify.read.solid import Solid, read_3mf
 from isomould.verify.read.tables import Table, pairs, read_table
 from isomould.verify.read.text import Json, read_json
@@ -98,6 +100,18 @@ class Delivery:
     def sheets(self) -> dict[str, Drawing]:
         """The cut sheets by name."""
         return self.drawings("sheets")
+
+    @cached_property
+    def books(self) -> dict[str, Book]:
+        """The shop drawings by name: texts and bookmarks of their pages."""
+        paths = self.files("drawings", "pdf")
+        return {path.stem: book for path, book in zip(paths, self.spread(read_pdf, paths), strict=True)}
+
+    @cached_property
+    def sheet_texts(self) -> dict[str, tuple[str, ...]]:
+        """The texts of the drawings' DXF files by name."""
+        paths = self.files("drawings", "dxf")
+        return {path.stem: found for path, found in zip(paths, self.spread(read_dxf_texts, paths), strict=True)}
 
     @cached_property
     def solids(self) -> dict[str, Solid]:

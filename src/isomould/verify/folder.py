@@ -22,6 +22,7 @@ from isomould.verify.checks import (
     panels,
     polygons,
     shapes,
+    sheets,
     solids,
     topology,
     totals,
@@ -51,6 +52,7 @@ _GROUPS = (
     workbook,
     totals,
     shapes,
+    sheets,
     manifest,
 )
 

@@ -10,7 +10,7 @@ from isomould.documents.shop.assembly import Drawn, assembly
 from isomould.documents.shop.development import Block, flat_faces, lay_block, usual_size
 from isomould.documents.shop.labels import Labels, face_names, make_names, owners
 from isomould.documents.shop.page import NORMAL, SMALLEST, Item, Line, Page, Text, paper_size, point
-from isomould.documents.shop.placing import place_all
+from isomould.documents.shop.placing import place_all, within
 from isomould.documents.shop.rows import Row
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import View, fit_scale, middle, scale_text
@@ -124,7 +124,7 @@ def _block_sheet(
     items: list[Item] = [Text(_caption(block, labels.mesh), (left, bottom + space[1] + 5), NORMAL)]
     for face, corners in zip(block.faces, block.corners, strict=True):
         outline = view.outline(corners, "thin")
-        items += [outline, *place_all(face_names(face, outline.points, labels), [outline], 0.25)]
+        items += [outline, *place_all(_inside(face, outline.points, labels), [outline], 0.25)]
     return "General arrangement", scale_text(scale), size, items
 
 
@@ -132,3 +132,8 @@ def _caption(block: Block, mesh: Mesh) -> str:
     ij = mesh.face_ij[list(block.faces)]
     (low_i, low_j), (high_i, high_j) = ij.min(axis=0).tolist(), ij.max(axis=0).tolist()
     return f"Developed from outside: panels of rows {low_i} to {high_i}, strips {low_j} to {high_j}"
+
+
+def _inside(face: int, points: Floats, labels: Labels) -> Iterator[list[Text]]:
+    """Ways to write the names that belong to a panel without leaving it."""
+    return ([text for text in way if within(text, points)] for way in face_names(face, points, labels))

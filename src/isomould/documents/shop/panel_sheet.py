@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from isomould.arrays import Floats
-from isomould.documents.shop.dimensions import Side, Span, right_of, stack
+from isomould.documents.shop.dimensions import FIRST, PITCH, Side, Span, right_of, stack
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import LARGE, NORMAL, SMALL, SMALLEST, Item, Line, Page, Text, paper_size, point
-from isomould.documents.shop.placing import place_all
+from isomould.documents.shop.placing import collide, place_all
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import View, choose_paper, fit_scale, middle, scale_text
@@ -18,6 +18,8 @@ from isomould.documents.table import Table
 _AROUND = 24.0
 """Room for the dimensions around the outline, mm."""
 _HEIGHT_OUT = 22.0
+_ROWS = 6
+"""Rows in which the dimension of a short side looks for room."""
 _A4_ROOM = (130.0, 100.0)
 
 
@@ -50,23 +52,24 @@ def panel_sheet(stationery: Stationery, table: Table, panel: PanelDrawing, sheet
 
 
 def _drawn(panel: PanelDrawing, view: View) -> list[Item]:
-    items = [view.outline(panel.outline), *_sides(panel, view), *_height(panel, view), *_diagonals(panel, view)]
+    items = [*_sides(panel, view), *_height(panel, view), *_diagonals(panel, view)]
     items += place_all(_angles(panel, view), items)
     return [*items, *place_all([_marks(panel, view)], items, 1.0)]
 
 
 def _sides(panel: PanelDrawing, view: View) -> list[Item]:
+    """Draw the outline and dimension its sides, the longest first; where dimensions would meet, the later one stands further out."""
     start = view.place(panel.outline)
     way = np.roll(start, -1, axis=0) - start
     length = np.linalg.norm(way, axis=1)
     along = way / length[:, None]
     away = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    texts = _side_texts(panel)
-    return [
-        item
-        for k, text in enumerate(texts)
-        for item in stack(Side(start[k], along[k], away[k]), [Span(0.0, float(length[k]), text)])
-    ]
+    texts, drawn = _side_texts(panel), list[Item]([view.outline(panel.outline)])
+    for k in np.argsort(-length, kind="stable").tolist():
+        side, spans = Side(start[k], along[k], away[k]), [Span(0.0, float(length[k]), texts[k])]
+        ways = (stack(side, spans, FIRST + row * PITCH) for row in range(_ROWS))
+        drawn += next((way for way in ways if not collide(way, drawn)), stack(side, spans))
+    return drawn
 
 
 def _side_texts(panel: PanelDrawing) -> list[str]:

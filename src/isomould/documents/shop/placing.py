@@ -59,3 +59,17 @@ def place_all(ways: Iterable[Iterable[Text]], items: Iterable[Item], clear: floa
             found.append(text)
             taken = np.concatenate([taken, segments([text])])
     return found
+
+
+def collide(items: Iterable[Item], others: Iterable[Item]) -> bool:
+    """Tell whether a text of either group meets anything of the other."""
+    groups = list(items), list(others)
+    taken = [segments(group) for group in groups]
+    return any(meets(item, taken[1 - k], 0.3).any() for k in (0, 1) for item in groups[k] if isinstance(item, Text))
+
+
+def within(text: Text, outline: Floats) -> bool:
+    """Tell whether the box of a text lies inside a convex outline (n, 2), counter-clockwise."""
+    side = np.roll(outline, -1, axis=0) - outline
+    away = text_box(text)[:, None] - outline
+    return bool((side[:, 0] * away[..., 1] - side[:, 1] * away[..., 0] > 0).all())

@@ -1,0 +1,173 @@
+"""V43, V45: shop drawings print what the schedules print, digit by digit, in PDF and in DXF alike."""
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from isomould.verify.delivery import Delivery
+from isomould.verify.read.dxf import one_outline
+from isomould.verify.read.pdf import Book, Sheet
+from isomould.verify.read.tables import Table, texts
+from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, Unreadable, faults
+
+KINDS = ("nodes", "members", "panels")
+ARRANGEMENT = "general-arrangement"
+_ELSEWHERE = re.compile(r"outline|files?|\w+_file|max_deviation_\w+")
+"""Columns that sheets do not print, or not as one text."""
+_DIMENSIONS = frozenset(
+    """drum_diameter_mm drum_height_mm system_length_mm top_length_mm bottom_length_mm cut_length_mm set_back_start_mm
+    set_back_end_mm end_angle_start_deg end_angle_end_deg side_a_mm side_b_mm side_c_mm side_d_mm height_mm""".split()
+)
+"""Columns that sheets print twice: listed, and as a dimension in a view."""
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+_DECIMALS = 3
+
+
+def sheets_of_marks(delivery: Delivery) -> Measured:
+    """Every class has the sheet that the schedule names, with its mark in the bookmark and on the page."""
+    books, problems = _books(delivery), list[str]()
+    for kind in KINDS:
+        table = delivery.table(kind)
+        for number, (mark, named) in enumerate(zip(texts(table, "mark"), _named(table), strict=True)):
+            problems += _sheet_faults(books[kind], number, mark, named)
+        problems += [f"drawings/{kind}.pdf has {len(books[kind].sheets)} pages"] * (
+            len(books[kind].sheets) != table.rows
+        )
+    return faults(sum(delivery.table(kind).rows for kind in KINDS), problems)
+
+
+def _named(table: Table) -> tuple[str, ...]:
+    column = "drawing_file" if "drawing_file" in table.columns else "files"
+    return tuple(cell.split(";")[-1] for cell in texts(table, column))
+
+
+def _sheet_faults(book: Book, number: int, mark: str, named: str) -> list[str]:
+    wanted = f"drawings/{book.name}.pdf#page={number + 1}"
+    found = [] if named == wanted else [f"{mark}: the schedule names {named or 'no drawing'}, not {wanted}"]
+    if number >= len(book.sheets) or book.sheets[number].name != mark or mark not in book.sheets[number].texts:
+        found.append(f"{mark}: page {number + 1} of drawings/{book.name}.pdf is not its sheet")
+    return found
+
+
+def printed(delivery: Delivery) -> Measured:
+    """Every value of a class in the schedules stands on its sheet exactly as printed there."""
+    rows = [(sheet, row) for kind in KINDS for sheet, row in _rows(delivery, kind)]
+    problems = [fault for sheet, row in rows for fault in _missing(sheet, row)]
+    return faults(sum(len(row) for _, row in rows), problems)
+
+
+def _rows(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[str, str]]]:
+    """Pair every sheet with what the schedule says of its class: column and text, blanks left out."""
+    table = delivery.table(kind)
+    columns = [name for name in table.columns if not _ELSEWHERE.fullmatch(name)]
+    sheets = {sheet.name: sheet for sheet in _books(delivery)[kind].sheets}
+    for number, mark in enumerate(texts(table, "mark")):
+        if mark not in sheets:
+            message = f"drawings/{kind}.pdf has no sheet of {mark}"
+            raise Unreadable(message)
+        row = {name: texts(table, name)[number] for name in columns}
+        yield sheets[mark], {name: text for name, text in row.items() if text}
+
+
+def _missing(sheet: Sheet, row: dict[str, str]) -> list[str]:
+    """Name the values that a sheet does not print; those of several columns as often as they are there."""
+    shown = Counter(word for text in sheet.texts for word in {text, *_NUMBER.findall(text)})
+    wanted = Counter(row.values()) + Counter(text for name, text in row.items() if name in _DIMENSIONS)
+    short = {text for text, count in wanted.items() if shown[text] < count}
+    return [f"{sheet.name}: {name} {text} is not on its sheet" for name, text in row.items() if text in short]
+
+
+def explained(delivery: Delivery) -> Measured:
+    """Every number with decimals on the sheets of members and panels is scheduled, or a distance in the part's file."""
+    problems, count = list[str](), 0
+    for kind, drawings in (("members", delivery.members), ("panels", delivery.panels)):
+        for sheet, row in _rows(delivery, kind):
+            shown = {number for text in sheet.texts for number in _NUMBER.findall(text) if "." in number}
+            points = one_outline(drawings[sheet.name]).points if sheet.name in drawings else np.empty((0, 2))
+            known = {*row.values(), *_outline_texts(delivery, kind, sheet.name), *_distances(points)}
+            known |= _asked(delivery)
+            problems += [f"{sheet.name}: {text} is in no schedule" for text in sorted(shown - known)]
+            count += len(shown)
+    return faults(count, problems)
+
+
+def _outline_texts(delivery: Delivery, kind: str, mark: str) -> list[str]:
+    """Give the coordinates of a trimmed panel as the schedule prints them."""
+    table = delivery.table(kind)
+    if "outline" not in table.columns:
+        return []
+    return re.split("[,;]", texts(table, "outline")[texts(table, "mark").index(mark)])
+
+
+def _distances(points: Floats) -> Iterable[str]:
+    """Print what an outline is measured by: differences of x and of y, sides and diagonals, angles."""
+    if not len(points):
+        return []
+    between = points[:, None] - points[None]
+    lengths = [*np.ravel(abs(between)), *np.ravel(np.hypot(between[..., 0], between[..., 1]))]
+    return [_text(value) for value in (*lengths, *_angles(points))]
+
+
+def _angles(points: Floats) -> Floats:
+    ahead, behind = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
+    cosine = (ahead * behind).sum(axis=1) / np.linalg.norm(ahead, axis=1) / np.linalg.norm(behind, axis=1)
+    return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
+def _text(value: float) -> str:
+    """Print a number as the schedules do: three decimals, no trailing zeros; snapped first, as they are (E5)."""
+    return f"{round(round(float(value), 6), _DECIMALS):.{_DECIMALS}f}".rstrip("0").rstrip(".")
+
+
+def _asked(delivery: Delivery) -> set[str]:
+    """Give the numbers that the project itself asked for, and its title block."""
+    raw = delivery.design.raw
+    values = [value for part in ("member", "panel", "node") for value in raw[part].values()]
+    return {_text(value) for value in values if isinstance(value, float | int)}
+
+
+def located(delivery: Delivery) -> Measured:
+    """The general arrangement names every location with its mark."""
+    words = {text for sheet in _books(delivery)[ARRANGEMENT].sheets for text in sheet.texts}
+    problems, count = list[str](), 0
+    for part in ("member", "panel"):
+        table = delivery.table(f"{part}_instances")
+        pairs = [f"{mark} {where}" for mark, where in zip(texts(table, "mark"), texts(table, "location"), strict=True)]
+        problems += [f"{pair} is not in the general arrangement" for pair in pairs if pair not in words]
+        count += len(pairs)
+    table = delivery.table("node_instances")
+    missing = [where for where in texts(table, "location") if where not in words]
+    return faults(count + table.rows, [*problems, *(f"{where} is not in the general arrangement" for where in missing)])
+
+
+def twins(delivery: Delivery) -> Measured:
+    """PDF and DXF of a book say the same: all texts, as often."""
+    problems, count = list[str](), 0
+    for name, book in _books(delivery).items():
+        pdf = Counter(text for sheet in book.sheets for text in sheet.texts)
+        dxf = Counter(delivery.sheet_texts[name])
+        differing = sorted(((pdf - dxf) + (dxf - pdf)).keys())
+        problems += [f"drawings/{name}: {text!r} is in the PDF or in the DXF only" for text in differing]
+        count += pdf.total()
+    return faults(count, problems)
+
+
+def _books(delivery: Delivery) -> dict[str, Book]:
+    if not delivery.design.raw.get("drawings", False):
+        raise NotApplicable("the project asks for no drawings")
+    missing = sorted({*KINDS, ARRANGEMENT} - delivery.books.keys())
+    if missing:
+        message = f"drawings/{missing[0]}.pdf is missing"
+        raise Unreadable(message)
+    return delivery.books
+
+
+RULES = (
+    Rule("V45", "every class has its sheet", 0, "faults", sheets_of_marks),
+    Rule("V45b", "drawings print what the schedules print", 0, "faults", printed),
+    Rule("V45c", "numbers on drawings are scheduled or measured in the part files", 0, "faults", explained),
+    Rule("V45d", "the general arrangement names every location", 0, "faults", located),
+    Rule("V43f", "PDF and DXF of the drawings say the same", 0, "faults", twins),
+)
