@@ -38,7 +38,7 @@ def write_drawings(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write the books that the project asks for, side by side."""
     project = delivery.design.project
     if project.deliver.drawings:
-        books = make_books(delivery, tables)
+        books = make_books(delivery)
         spread(_write_book, [_BookFiles(folder, book, heading(project.project)) for book in books])
 
 

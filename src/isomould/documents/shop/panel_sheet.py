@@ -58,7 +58,7 @@ def _drawn(panel: PanelDrawing, view: View) -> list[Item]:
 
 
 def _sides(panel: PanelDrawing, view: View) -> list[Item]:
-    """Draw the outline and dimension its sides, the longest first; where dimensions would meet, the later one stands further out."""
+    """Draw the outline and dimension its sides, longest first; where two would meet one stands further out."""
     start = view.place(panel.outline)
     way = np.roll(start, -1, axis=0) - start
     length = np.linalg.norm(way, axis=1)

@@ -18,7 +18,7 @@ _ELSEWHERE = re.compile(r"outline|files?|\w+_file|max_deviation_\w+")
 """Columns that sheets do not print, or not as one text."""
 _DIMENSIONS = frozenset(
     """drum_diameter_mm drum_height_mm system_length_mm top_length_mm bottom_length_mm cut_length_mm set_back_start_mm
-    set_back_end_mm end_angle_start_deg end_angle_end_deg side_a_mm side_b_mm side_c_mm side_d_mm height_mm""".split()
+    set_back_end_mm end_angle_start_deg end_angle_end_deg side_a_mm side_b_mm side_c_mm side_d_mm height_mm""".split()  # noqa: SIM905
 )
 """Columns that sheets print twice: listed, and as a dimension in a view."""
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
