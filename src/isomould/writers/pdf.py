@@ -84,6 +84,7 @@ def _(item: Arc, canvas: Canvas) -> None:
     angles = math.degrees(item.start), math.degrees(item.end - item.start)
     path = canvas.beginPath()
     path.arc(x - r, y - r, x + r, y + r, *angles)  # pyright: ignore[reportArgumentType] - floats are drawn
+    canvas.drawPath(path)
 
 
 def _write_texts(canvas: Canvas, texts: list[Text]) -> None:

@@ -9,7 +9,7 @@ import shapely
 from isomould.arrays import Floats
 from isomould.documents.shop.dimensions import Side, Span, above, below, left_of, running, stack, stack_height
 from isomould.documents.shop.grid import grid, grid_size
-from isomould.documents.shop.page import NORMAL, SMALLEST, Arc, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.page import NORMAL, SMALLEST, Arc, Item, Line, Page, Paper, Text, paper_size, point
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import View, choose_paper, fit_scale, scale_text
@@ -21,8 +21,11 @@ _END_SHARE = 0.75
 """How much of an end is enlarged, in depths of the section."""
 _END_ROOM = (48.0, 42.0)
 _A4_WIDTH = 257.0
-_LEVEL = 0.0015
-"""Corners on one level line, each rounded to 0.001 mm, mm."""
+_LEVEL = 0.0035
+"""Corners on one level line: heights of drums are rounded down to 0.001 mm, corners to the nearest."""
+_MOST_HOLES: dict[Paper, int] = {"A4": 7, "A3": 20}
+_HOLES_AT: dict[Paper, tuple[float, float]] = {"A4": (-3.0, -4.0), "A3": (190.0, 70.0)}
+"""Holes in one table, and where its upper left corner stands: from the lower left of the drawing's room, mm."""
 _HOLE_HEADING = ("Hole", "Face", "x", "y", "Ø", "Slot", "Thread")
 
 
@@ -37,12 +40,14 @@ class MemberDrawing:
 
 def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sheet: int, sheets: int) -> Page:
     """Draw one member class."""
-    size = paper_size(choose_paper(stationery.paper, _scale(member, _A4_WIDTH)), lying=True)
+    asked = stationery.paper or ("A3" if member.shape.holes else None)
+    paper = choose_paper(asked, _scale(member, _A4_WIDTH))
+    size = paper_size(paper, lying=True)
     left, bottom, right, top = room(stationery, size)
     data = [("Member", member.row["mark"]), *data_rows(table, member.row)]
     width, height = grid_size(data)
     scale = _scale(member, right - left)
-    ends = fit_scale((_END_SHARE * _depth(member), _depth(member)), _END_ROOM)
+    ends = fit_scale((_END_SHARE * _depth(member), _depth(member)), _end_room(member, paper))
     low = bottom + 24.0
     items = [
         *grid(data, (right - width, bottom + height)),
@@ -50,10 +55,16 @@ def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sh
         *_end(member, ends, np.array([left + 24, low]), 1),
         *_end(member, ends, np.array([left + 129, low]), -1),
         *_section(member, ends, np.array([left + 163, low])),
-        *_holes(member.shape.holes, (left, bottom + 8)),
+        *_holes(member.shape.holes, paper, (left, bottom)),
     ]
     scales = f"{scale_text(scale)} ({scale_text(ends)})"
     return finish(stationery, Subject("Member", member.row["mark"], scales, sheet, sheets), size, items)
+
+
+def _end_room(member: MemberDrawing, paper: Paper) -> tuple[float, float]:
+    """Room (mm) of an enlarged end: on small paper the running dimensions of holes take half of it."""
+    wide, high = _END_ROOM
+    return (wide, high / 2) if member.shape.holes and paper == "A4" else (wide, high)
 
 
 def _depth(member: MemberDrawing) -> float:
@@ -84,11 +95,15 @@ def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -
     ]
 
 
-def _level(outline: Floats, top: bool) -> Floats:
-    """Least and greatest x of the corners on the top (bottom) edge."""
-    y = outline[:, 1] if top else -outline[:, 1]
-    x = outline[y > y.max() - _LEVEL, 0]
-    return np.array([x.min(), x.max()])
+def _level(member: MemberDrawing, side: int, length: str) -> Floats:
+    """Give the x (2,) of the corners on the top (1) or bottom (−1) edge between which a length is scheduled.
+
+    Where a tongue is as high as the body, its corners lie on the edge too and the length ends before them.
+    """
+    y = side * member.shape.outline[:, 1]
+    x = member.shape.outline[y > y.max() - _LEVEL, 0]
+    off = np.abs(x[None] - x[:, None] - float(length))
+    return x[list(np.unravel_index(np.argmin(off), off.shape))]
 
 
 def _spans_above(member: MemberDrawing, view: View) -> list[Span]:
@@ -96,7 +111,7 @@ def _spans_above(member: MemberDrawing, view: View) -> list[Span]:
     work = (shape.outline[:, 1].max()) / view.scale
     back, length = shape.set_back, shape.system_length
     return [
-        _span(view, _level(shape.outline, True), row["top_length_mm"]),
+        _span(view, _level(member, 1, row["top_length_mm"]), row["top_length_mm"]),
         _span(view, np.array([0.0, back[0]]), row["set_back_start_mm"], (-work, -work)),
         _span(view, np.array([length - back[1], length]), row["set_back_end_mm"], (-work, -work)),
     ]
@@ -106,7 +121,7 @@ def _spans_below(member: MemberDrawing, view: View) -> list[Span]:
     shape, row = member.shape, member.row
     x, work = shape.outline[:, 0], shape.outline[:, 1].min() / view.scale
     return [
-        _span(view, _level(shape.outline, False), row["bottom_length_mm"]),
+        _span(view, _level(member, -1, row["bottom_length_mm"]), row["bottom_length_mm"]),
         _span(view, np.array([x.min(), x.max()]), row["cut_length_mm"], (work / 2, work / 2)),
         _span(view, np.array([0.0, shape.system_length]), row["system_length_mm"], (work, work)),
     ]
@@ -194,16 +209,20 @@ def _hole_places(shape: MemberShape, view: View, low: float) -> list[Item]:
     return running(side, [((x - start) / view.scale, length_text(x - start)) for x in places], first=6.0)
 
 
-def _holes(holes: Sequence[Hole], corner: tuple[float, float]) -> list[Item]:
-    """List the holes: x from the work point at the start, y from the middle line of their face."""
-    if not holes:
-        return []
+def _holes(holes: Sequence[Hole], lying: Paper, corner: tuple[float, float]) -> list[Item]:
+    """List the holes beside the title block, or further up on large paper: x from the work point at the start."""
+    names = [hole.face for hole in holes], [hole.thread or "-" for hole in holes]
+    sizes = [map(length_text, (hole.x, hole.y, hole.diameter, hole.lengthening)) for hole in holes]
     rows = [
-        (str(k), hole.face, *map(length_text, (hole.x, hole.y, hole.diameter, hole.lengthening)), hole.thread or "-")
-        for k, hole in enumerate(holes, start=1)
+        (str(k), face, *size, thread)
+        for k, (face, size, thread) in enumerate(zip(names[0], sizes, names[1], strict=True), 1)
     ]
-    table = [_HOLE_HEADING, *rows]
-    return grid(table, (corner[0], corner[1] + grid_size(table, SMALLEST)[1] - 8), SMALLEST)
+    (left, top), most, items = _HOLES_AT[lying], _MOST_HOLES[lying], list[Item]()
+    for start in range(0, len(rows), most):
+        table = [_HOLE_HEADING, *rows[start : start + most]]
+        items += grid(table, (corner[0] + left, corner[1] + top), SMALLEST)
+        left += grid_size(table, SMALLEST)[0] + 4
+    return items
 
 
 def plate_section(depth: float, thickness: float) -> tuple[Floats, ...]:

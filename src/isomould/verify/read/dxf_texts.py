@@ -29,4 +29,14 @@ def _texts(codes: list[int], values: list[str]) -> Iterator[str]:
         if code == 0:
             kind = value
         elif code == 1 and inside and kind == "TEXT":
-            yield _UNICODE.sub(lambda match: chr(int(match[1], 16)), value)
+            yield _plain(value)
+
+
+def _plain(value: str) -> str:
+    r"""Undo the codes of a content: characters by number, and the signs that otherwise begin codes.
+
+    >>> _plain(r"\U+0141 %%%%%%d ^ J")
+    'Ł %%d ^J'
+    """
+    text = _UNICODE.sub(lambda match: chr(int(match[1], 16)), value)
+    return text.replace("%%%", "%").replace("^ ", "^")
