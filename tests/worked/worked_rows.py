@@ -175,7 +175,8 @@ def node_row(i, j):
     row |= {"slots": count, "facets": 0, "holes": 1, "weld_length_mm": 2 * height * count}
     angle = max(apart(node_description(*place), node_description(i, j)) for place in same(node_classes(), (i, j)))
     row |= {"max_deviation_mm": angle * RADIUS, "max_deviation_deg": degrees(angle)}
-    return row | {"solid_file": f"nodes/{row['mark']}.3mf", "drawing_file": f"nodes/{row['mark']}.dxf"}
+    files = f"nodes/{row['mark']}.dxf;{sheet('nodes', row['mark'])}"
+    return row | {"solid_file": f"nodes/{row['mark']}.3mf", "drawing_file": files}
 
 
 def mass(one, count):
@@ -226,7 +227,12 @@ def member_row(i, j, di, dj):
     row |= {f"set_back_{end}_mm": PLATE_END / cos(angle) for end, angle in ends}
     row |= mass(face * THICK * STEEL / 1e9, count)
     row["coated_area_m2"] = (2 * face + THICK * perimeter(outline)) / 1e6
-    return row | {"files": f"members/{row['mark']}.dxf"}
+    return row | {"files": f"members/{row['mark']}.dxf;{sheet('members', row['mark'])}"}
+
+
+def sheet(book, name):
+    """The page of a class: they are drawn in the order of their marks."""
+    return f"drawings/{book}.pdf#page={int(name[1:])}"
 
 
 def member_instance_row(i, j, di, dj):
@@ -255,7 +261,7 @@ def panel_row(i, j):
     row |= {"charged_area_m2": max(GLASS_MIN, blank[0] * blank[1] / 1e6)}
     row |= {"box_width_mm": width, "box_height_mm": height}
     row |= mass(face * GLASS / 1e3 * GLASS_DENSITY, count)
-    return row | {"handed": panel_hand(i, j), "files": f"panels/{row['mark']}.dxf"}
+    return row | {"handed": panel_hand(i, j), "files": f"panels/{row['mark']}.dxf;{sheet('panels', row['mark'])}"}
 
 
 def square_metres(points):

@@ -21,6 +21,9 @@ _DIMENSIONS = frozenset(
     set_back_end_mm end_angle_start_deg end_angle_end_deg side_a_mm side_b_mm side_c_mm side_d_mm height_mm""".split()  # noqa: SIM905
 )
 """Columns that sheets print twice: listed, and as a dimension in a view."""
+_UNLABELLED = re.compile(r"mark|(azimuth|elevation)_\d+_deg|(family|section)_\d+")
+"""Columns that head the list, or stand in a table of their own."""
+_UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m2": "m²", "cm3": "cm³"}
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _DECIMALS = 3
 
@@ -46,7 +49,7 @@ def _named(table: Table) -> tuple[str, ...]:
 def _sheet_faults(book: Book, number: int, mark: str, named: str) -> list[str]:
     wanted = f"drawings/{book.name}.pdf#page={number + 1}"
     found = [] if named == wanted else [f"{mark}: the schedule names {named or 'no drawing'}, not {wanted}"]
-    if number >= len(book.sheets) or book.sheets[number].name != mark or mark not in book.sheets[number].texts:
+    if number >= len(book.sheets) or book.sheets[number].name != mark or book.sheets[number].texts.count(mark) < 2:
         found.append(f"{mark}: page {number + 1} of drawings/{book.name}.pdf is not its sheet")
     return found
 
@@ -72,11 +75,24 @@ def _rows(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[str, str]
 
 
 def _missing(sheet: Sheet, row: dict[str, str]) -> list[str]:
-    """Name the values that a sheet does not print; those of several columns as often as they are there."""
+    """Name the values that a sheet does not list behind their names, or does not print as often as it should."""
+    listed = set(zip(sheet.texts, sheet.texts[1:], strict=False))
     shown = Counter(word for text in sheet.texts for word in {text, *_NUMBER.findall(text)})
     wanted = Counter(row.values()) + Counter(text for name, text in row.items() if name in _DIMENSIONS)
-    short = {text for text, count in wanted.items() if shown[text] < count}
-    return [f"{sheet.name}: {name} {text} is not on its sheet" for name, text in row.items() if text in short]
+    absent = [name for name, text in row.items() if not (_UNLABELLED.fullmatch(name) or (_label(name), text) in listed)]
+    absent += [name for name, text in row.items() if shown[text] < wanted[text] and name not in absent]
+    return [f"{sheet.name}: {name} {row[name]} is not on its sheet" for name in absent]
+
+
+def _label(column: str) -> str:
+    """Give the name of a column as sheets print it.
+
+    >>> _label("set_back_start_mm"), _label("handed")
+    ('Set back start (mm)', 'Handed')
+    """
+    stem, _, unit = column.rpartition("_")
+    words = (stem if unit in _UNITS else column).replace("_", " ").capitalize()
+    return f"{words} ({_UNITS[unit]})" if unit in _UNITS else words
 
 
 def explained(delivery: Delivery) -> Measured:

@@ -1,0 +1,140 @@
+"""One fault in the shop drawings of a delivered folder at a time, each found by the check that it concerns."""
+
+import csv
+import io
+import json
+import shutil
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from pypdf import PdfWriter
+
+from isomould.verify.delivery import Delivery
+from isomould.verify.folder import RULES
+from isomould.verify.rules import judge
+
+BY_ID = {rule.id: rule for rule in RULES}
+SHEETS = ("V43f", "V45", "V45b", "V45c", "V45d")
+
+
+@pytest.fixture
+def folder(built_folder, tmp_path):
+    return Path(shutil.copytree(built_folder, tmp_path / "delivered"))
+
+
+def rows_of(folder, name):
+    return list(csv.DictReader(io.StringIO((folder / "tables" / f"{name}.csv").read_bytes().decode(), newline="")))
+
+
+def edit_table(name, change):
+    def seed(folder):
+        rows = rows_of(folder, name)
+        change(rows)
+        buffer = io.StringIO(newline="")
+        writer = csv.DictWriter(buffer, rows[0], lineterminator="\r\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        (folder / "tables" / f"{name}.csv").write_bytes(buffer.getvalue().encode())
+
+    return seed
+
+
+def edit_pdf(name, change):
+    """Change the first text operator of a book that `change` names, and write the file anew."""
+
+    def seed(folder):
+        path = folder / "drawings" / f"{name}.pdf"
+        old, new = change(folder)
+        writer = PdfWriter(clone_from=path)
+        streams = [page["/Contents"].get_object() for page in writer.pages]
+        stream = next(stream for stream in streams if old in stream.get_data())
+        stream.set_data(stream.get_data().replace(old, new, 1))
+        writer.write(path)
+
+    return seed
+
+
+def shown(text, other):
+    return lambda folder: (f"({text}) Tj".encode("cp1252"), f"({other}) Tj".encode("cp1252"))
+
+
+def cut_length(folder):
+    """A dimension of a member, one digit changed."""
+    length = rows_of(folder, "members")[0]["cut_length_mm"]
+    return f"({length}) Tj".encode(), f"({length[:-1]}{(int(length[-1]) + 1) % 10}) Tj".encode()
+
+
+def edit_dxf(folder):
+    path = folder / "drawings" / "panels.dxf"
+    path.write_bytes(path.read_bytes().replace(b"\nQuantity\n", b"\nQuantities\n", 1))
+
+
+def shear_member(folder):
+    path = folder / "members" / "M01.dxf"
+    document = ezdxf.readfile(path)
+    cut = next(e for e in document.modelspace() if e.dxftype() == "LWPOLYLINE" and e.dxf.layer == "CUT")
+    points = np.array(cut.get_points("xy"))
+    cut.set_points([tuple(point) for point in points * 1.001], format="xy")
+    document.saveas(path)
+
+
+def swap_sheets(rows):
+    rows[0]["drawing_file"], rows[1]["drawing_file"] = rows[1]["drawing_file"], rows[0]["drawing_file"]
+
+
+def one_more(rows):
+    rows[0]["quantity"] = str(int(rows[0]["quantity"]) + 1)
+
+
+def digit(column):
+    def change(rows):
+        rows[0][column] += "1"
+
+    return change
+
+
+def other_location(rows):
+    rows[0]["location"] += "-A"
+
+
+SEEDS = {
+    "sheet of another mark named": ("V45", edit_table("nodes", swap_sheets)),
+    "no sheet named": ("V45", edit_table("panels", lambda rows: rows[0].update(files="panels/P01.dxf"))),
+    "mark changed on its sheet": ("V45", edit_pdf("nodes", shown("N03", "N04"))),
+    "quantity": ("V45b", edit_table("members", one_more)),
+    "a digit of a mass in the schedule": ("V45b", edit_table("nodes", digit("mass_kg"))),
+    "a digit of a height in the schedule": ("V45b", edit_table("panels", digit("height_mm"))),
+    "a digit of a dimension on the drawing": ("V45b", edit_pdf("members", cut_length)),
+    "a dimension that is in no schedule": ("V45c", edit_pdf("members", cut_length)),
+    "part file of another size": ("V45c", shear_member),
+    "location": ("V45d", edit_table("member_instances", other_location)),
+    "node location": ("V45d", edit_table("node_instances", other_location)),
+    "text in the DXF only": ("V43f", edit_dxf),
+    "text in the PDF only": ("V43f", edit_pdf("general-arrangement", shown("Node", "Knot"))),
+    "DXF lost": ("V43f", lambda folder: (folder / "drawings" / "nodes.dxf").unlink()),
+    "PDF lost": ("V45", lambda folder: (folder / "drawings" / "nodes.pdf").unlink()),
+}
+
+
+@pytest.mark.parametrize("name", SEEDS)
+def test_every_fault_is_found(folder, name):
+    rule, seed = SEEDS[name]
+    seed(folder)
+    check = judge(BY_ID[rule], Delivery(folder))
+    assert check.status == "fail", check
+    assert check.reason
+
+
+@pytest.mark.parametrize("rule", SHEETS)
+def test_good_drawings_pass(built_folder, rule):
+    check = judge(BY_ID[rule], Delivery(built_folder))
+    assert check.status == "pass", check
+    assert check.count > 30
+
+
+def test_no_drawings_are_asked_for(folder):
+    path = folder / "model" / "design.json"
+    path.write_text(json.dumps({**json.loads(path.read_text("utf-8")), "drawings": False}), "utf-8")
+    assert {judge(BY_ID[rule], Delivery(folder)).status for rule in SHEETS} == {"not_applicable"}
