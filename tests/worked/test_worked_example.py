@@ -31,7 +31,7 @@ def schedules() -> dict[str, list[dict]]:
     loaded = load_project(TEMPLATE)
     design = make_design(loaded.project, loaded.folder)
     solids = make_solids(design.kit.nodes, design.kit.drum, loaded.project.nodes.slot_end)
-    tables = part_tables(design.kit, kit_settings(loaded.project), solids, {}, {})
+    tables = part_tables(design.kit, kit_settings(loaded.project), solids, {}, {}, drawn=True)
     return {table.name: _rows(table) for table in tables}
 
 
