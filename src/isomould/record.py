@@ -155,6 +155,7 @@ def _panel(design: Design) -> dict[str, Any]:
         "density_kg_m3": asked.density,
         "gap_mm": asked.gap,
         "underside_mm": design.kit.panels.underside,
+        "makeup": asked.makeup,
         "min_bearing_mm": asked.min_bearing,
         "smallest_bearing_mm": float(design.kit.panels.bearing.min()),
         "flippable": asked.flippable,

@@ -138,3 +138,21 @@ def test_no_drawings_are_asked_for(folder):
     path = folder / "model" / "design.json"
     path.write_text(json.dumps({**json.loads(path.read_text("utf-8")), "drawings": False}), "utf-8")
     assert {judge(BY_ID[rule], Delivery(folder)).status for rule in SHEETS} == {"not_applicable"}
+
+
+def test_numbers_of_title_block_and_holes_are_no_strangers(folder):
+    """A project number with decimals, and holes that the part file has, explain what a sheet prints."""
+    for path in sorted((folder / "drawings").glob("*.pdf")):
+        writer = PdfWriter(clone_from=path)
+        for page in writer.pages:
+            stream = page["/Contents"].get_object()
+            stream.set_data(stream.get_data().replace(b"(Small) Tj", b"(Small 7.25) Tj"))
+        writer.write(path)
+    edit_pdf("members", lambda folder: (b"(Quantity) Tj", b"(Quantity) Tj (31.415) Tj"))(folder)
+    assert judge(BY_ID["V45c"], Delivery(folder)).status == "fail"
+    path = folder / "members" / "M01.dxf"
+    document = ezdxf.readfile(path)
+    document.modelspace().add_circle((300, 31.415), 9, dxfattribs={"layer": "DRILL"})
+    document.saveas(path)
+    check = judge(BY_ID["V45c"], Delivery(folder))
+    assert check.status == "pass", check

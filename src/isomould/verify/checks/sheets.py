@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.read.dxf import one_outline
+from isomould.verify.read.dxf import Drawing, one_outline, outlines_on
 from isomould.verify.read.pdf import Book, Sheet
 from isomould.verify.read.tables import Table, texts
 from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, Unreadable, faults
@@ -96,34 +96,59 @@ def _label(column: str) -> str:
 
 
 def explained(delivery: Delivery) -> Measured:
-    """Every number with decimals on the sheets of members and panels is scheduled, or a distance in the part's file."""
+    """Every number with decimals on a sheet is scheduled, asked for, or measured in the part's own file.
+
+    Parts without a file of their own, such as hollow sections, which are cut from NC1, are left out.
+    """
     problems, count = list[str](), 0
     for kind, drawings in (("members", delivery.members), ("panels", delivery.panels)):
+        asked = _numbers([*_asked(delivery), *_on_all_sheets(delivery, kind)])
         for sheet, row in _rows(delivery, kind):
-            shown = {number for text in sheet.texts for number in _NUMBER.findall(text) if "." in number}
-            points = one_outline(drawings[sheet.name]).points if sheet.name in drawings else np.empty((0, 2))
-            known = {*row.values(), *_outline_texts(delivery, kind, sheet.name), *_distances(points)}
-            known |= _asked(delivery)
-            problems += [f"{sheet.name}: {text} is in no schedule" for text in sorted(shown - known)]
+            shown = {number for number in _numbers(sheet.texts) if "." in number and sheet.name in drawings}
+            known = asked | _numbers([*row.values(), _outline_text(delivery, kind, sheet.name)])
+            strange = shown - known and shown - known - set(_measured(drawings[sheet.name]))
+            problems += [f"{sheet.name}: {text} is in no schedule" for text in sorted(strange)]
             count += len(shown)
     return faults(count, problems)
 
 
-def _outline_texts(delivery: Delivery, kind: str, mark: str) -> list[str]:
-    """Give the coordinates of a trimmed panel as the schedule prints them."""
+def _numbers(found: Iterable[str]) -> set[str]:
+    return {number for text in found for number in _NUMBER.findall(text)}
+
+
+def _asked(delivery: Delivery) -> list[str]:
+    """Print what the project asked for of its parts."""
+    raw = delivery.design.raw
+    values = [value for part in ("member", "panel", "node") for value in raw[part].values()]
+    return [_text(value) if isinstance(value, float | int) else str(value) for value in values]
+
+
+def _on_all_sheets(delivery: Delivery, kind: str) -> set[str]:
+    """Give the texts of the title block and of notes: those that all sheets of a book share, if it has several."""
+    books = _books(delivery)
+    own = [set(sheet.texts) for sheet in books[kind].sheets]
+    every = [set(sheet.texts) for name in KINDS for sheet in books[name].sheets]
+    return set.intersection(*every) | (set.intersection(*own) if len(own) > 1 else set())
+
+
+def _outline_text(delivery: Delivery, kind: str, mark: str) -> str:
+    """Give the corners of a trimmed panel as the schedule prints them."""
     table = delivery.table(kind)
-    if "outline" not in table.columns:
-        return []
-    return re.split("[,;]", texts(table, "outline")[texts(table, "mark").index(mark)])
+    return texts(table, "outline")[texts(table, "mark").index(mark)] if "outline" in table.columns else ""
 
 
-def _distances(points: Floats) -> Iterable[str]:
-    """Print what an outline is measured by: differences of x and of y, sides and diagonals, angles."""
-    if not len(points):
-        return []
+def _measured(drawing: Drawing) -> list[str]:
+    """Print what a part is measured by: coordinates, distances along both axes and between points, angles, holes."""
+    outline = one_outline(drawing).points
+    slots = [hole.points for hole in outlines_on(drawing, "CUT_INNER")]
+    drilled = [entity for entity in drawing.entities if entity.layer == "DRILL"]
+    middles = [(slot.min(axis=0) + slot.max(axis=0)) / 2 for slot in slots]
+    middles += [np.array(circle.points[0][:2]) for circle in drilled]
+    points = np.vstack([outline, *middles])
     between = points[:, None] - points[None]
-    lengths = [*np.ravel(abs(between)), *np.ravel(np.hypot(between[..., 0], between[..., 1]))]
-    return [_text(value) for value in (*lengths, *_angles(points))]
+    sizes = [size for slot in slots for size in (*np.ptp(slot, axis=0), abs(np.diff(np.ptp(slot, axis=0)))[0])]
+    lengths = [points, between, np.hypot(between[..., 0], between[..., 1]), [2 * d.radius for d in drilled], sizes]
+    return [_text(value) for values in (*lengths, _angles(outline)) for value in np.ravel(values)]
 
 
 def _angles(points: Floats) -> Floats:
@@ -134,14 +159,7 @@ def _angles(points: Floats) -> Floats:
 
 def _text(value: float) -> str:
     """Print a number as the schedules do: three decimals, no trailing zeros; snapped first, as they are (E5)."""
-    return f"{round(round(float(value), 6), _DECIMALS):.{_DECIMALS}f}".rstrip("0").rstrip(".")
-
-
-def _asked(delivery: Delivery) -> set[str]:
-    """Give the numbers that the project itself asked for, and its title block."""
-    raw = delivery.design.raw
-    values = [value for part in ("member", "panel", "node") for value in raw[part].values()]
-    return {_text(value) for value in values if isinstance(value, float | int)}
+    return f"{round(round(float(value), 6), _DECIMALS) + 0.0:.{_DECIMALS}f}".rstrip("0").rstrip(".")
 
 
 def located(delivery: Delivery) -> Measured:
