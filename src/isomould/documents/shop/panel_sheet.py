@@ -73,7 +73,7 @@ def _sides(panel: PanelDrawing, view: View) -> list[Item]:
 
 
 def _side_texts(panel: PanelDrawing) -> list[str]:
-    """Lengths of the sides: as scheduled, or of the outline where the panel is trimmed."""
+    """Lengths of the sides: as scheduled, or of the outline where it has one of its own, trimmed or chamfered."""
     if not panel.row["outline"]:
         return [panel.row[f"side_{letter}_mm"] for letter in "abcd"]
     lengths = np.linalg.norm(np.roll(panel.outline, -1, axis=0) - panel.outline, axis=1)
@@ -82,7 +82,7 @@ def _side_texts(panel: PanelDrawing) -> list[str]:
 
 def _height(panel: PanelDrawing, view: View) -> list[Item]:
     """Dimension the height over side a, beyond the dimensions of the sides."""
-    if not panel.row["height_mm"]:
+    if panel.row["outline"] or not panel.row["height_mm"]:
         return []
     points = view.place(panel.outline)
     right, low = points[:, 0].max(), points[0, 1]

@@ -78,7 +78,8 @@ def _missing(sheet: Sheet, row: dict[str, str]) -> list[str]:
     """Name the values that a sheet does not list behind their names, or does not print as often as it should."""
     listed = set(zip(sheet.texts, sheet.texts[1:], strict=False))
     shown = Counter(word for text in sheet.texts for word in {text, *_NUMBER.findall(text)})
-    wanted = Counter(row.values()) + Counter(text for name, text in row.items() if name in _DIMENSIONS)
+    drawn = () if "Corner" in sheet.texts else _DIMENSIONS  # panels with an outline of their own show its sides
+    wanted = Counter(row.values()) + Counter(text for name, text in row.items() if name in drawn)
     absent = [name for name, text in row.items() if not (_UNLABELLED.fullmatch(name) or (_label(name), text) in listed)]
     absent += [name for name, text in row.items() if shown[text] < wanted[text] and name not in absent]
     return [f"{sheet.name}: {name} {row[name]} is not on its sheet" for name in absent]
