@@ -10,8 +10,8 @@ import numpy as np
 from isomould.errors import OutputFault
 from isomould.verify.read.design import Design, read_design
 from isomould.verify.read.dxf import Drawing, read_dxf, with_layers
-from isomould.verify.read.glb import Model, read_glb
 from isomould.verify.read.dxf_texts import read_dxf_texts
+from isomould.verify.read.glb import Model, read_glb
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
 from isomould.verify.read.pdf import Book, read_pdf
