@@ -29,7 +29,7 @@ def delivery_of(data):
     design = museum.design(data)
     solids = make_solids(design.kit.nodes, design.kit.drum, design.project.nodes.slot_end)
     cutting = nest_kit(design.kit, design.project.members.section.name, None, Search("quick"), one_by_one)
-    return Delivery(design, solids, cutting)
+    return Delivery(design, solids, {}, cutting)
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +86,7 @@ def test_a_sheet_per_class_with_the_schedule_on_it(name, vault, books):
     for row, page in zip(rows, books[name].pages, strict=True):
         shown = texts(page)
         assert {row["mark"], row["quantity"], row["mass_kg"], row["total_mass_kg"]} <= set(shown)
-        named = row.get("drawing_file") or row["files"].split(";")[-1]
+        named = (row.get("drawing_file") or row["files"]).split(";")[-1]
         assert named == f"drawings/{name}.pdf#page={books[name].pages.index(page) + 1}"
 
 
