@@ -106,9 +106,9 @@ def test_stopped_search_gives_a_whole_layout_that_is_not_reproducible() -> None:
 
 
 def test_progress_is_told() -> None:
-    told: list[tuple[int, int, int]] = []
+    told: list[tuple[int, int, int, int]] = []
     layout = nest_sheets(rows_of_trapezoids(3, 4, 6), STOCK, Search("quick", lambda *news: told.append(news)))
-    assert [done for done, _, _ in told] == list(range(1, len(told) + 1))
+    assert [done for done, _, _, _ in told] == list(range(1, len(told) + 1))
     assert len(told) <= told[-1][1]
     assert told[-1][2] == len(layout.sheets)
 
@@ -127,7 +127,7 @@ def test_file_that_is_no_layout_is_refused() -> None:
 
 
 def test_search_ends_at_the_bound() -> None:
-    told: list[tuple[int, int, int]] = []
+    told: list[tuple[int, int, int, int]] = []
     parts = [Part("A", trapezoid(2900, 1500, 0, 0), 8)]
     layout = nest_sheets(parts, STOCK, Search("best", lambda *news: told.append(news)))
     assert (layout.gap_to_bound, told, layout.reproducible) == (0, [], True)

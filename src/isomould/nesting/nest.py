@@ -8,7 +8,9 @@ from isomould.errors import Refused
 from isomould.nesting.assembly import Filling, fill_blanks, fill_stock, make_layout
 from isomould.nesting.bound import area_bound, dilated_area, grown_rectangle, sheets_for
 from isomould.nesting.checker import check_layout
+from isomould.nesting.cover import fill_sheets
 from isomould.nesting.layout import Id, Layout, Part
+from isomould.nesting.portfolio import find_plans
 from isomould.nesting.rack import (
     blank_length,
     box,
@@ -18,7 +20,7 @@ from isomould.nesting.rack import (
     refuse_oversize,
     sort_classes,
 )
-from isomould.nesting.search import Search, fill_sheets, search
+from isomould.nesting.search import Search
 from isomould.nesting.settings import StockSettings
 from isomould.nesting.shapes import micrometres
 
@@ -39,7 +41,9 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     """
     refuse_oversize(parts, stock)
     classes = sort_classes(parts)
-    plans, ended = search(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else ([], True)
+    plans, ended = (
+        find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else ([], True)
+    )
     filling = fill_stock(plans, classes, stock)
     placed = [item[1].points / 1e3 for sheet in filling.filled for item in sheet.placed]
     return prove(parts, stock, make_layout([filling], area_bound(placed, stock), ended=ended))

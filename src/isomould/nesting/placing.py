@@ -5,7 +5,7 @@ every neighbour is set at its true distance. Hence every strip, block and piece 
 from edge to edge.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,7 +14,7 @@ import numpy as np
 from isomould.arrays import Floats, Ints
 from isomould.nesting.layout import CutTree
 from isomould.nesting.shapes import Shape, advance, rotate, turn_half
-from isomould.nesting.sheets import SheetPlan, Strip, strip_height
+from isomould.nesting.sheets import Run, SheetPlan, Strip, Zone, strip_height
 from isomould.nesting.strips import Block
 
 Line = list[list[float]]
@@ -64,19 +64,52 @@ def place(plan: SheetPlan, saw: Saw, length: int) -> tuple[list[Placed], CutTree
     length
         Room for a strip; strips of a turned frame start at the top and go down.
     """
-    strips = [_lay_strip(strip, saw) for strip in plan.strips]
-    bottoms = np.cumsum([0] + [strip_height(strip) + saw.step for strip in plan.strips[:-1]]).tolist()
-    rows = [(piece, y) for strip, y in zip(strips, bottoms, strict=True) for block in strip for piece in block]
-    tree = _cut_sheet(strips, bottoms, saw)
-    if not plan.frame.turned:
-        return [_placed(piece, y) for piece, y in rows], tree
-    return [_turn_down(_placed(piece, y), length) for piece, y in rows], _turn_tree(tree, length)
+    laid = _lay_stack(plan.strips, saw)
+    return _turn_down(laid, length) if plan.frame.turned else laid
 
 
-def _lay_strip(strip: Strip, saw: Saw) -> list[list[_Piece]]:
+Laid = tuple[list[Placed], CutTree]
+"""Pieces and the cuts that free them; placements count from 0."""
+
+
+def _lay_stack(strips: Sequence[Strip], saw: Saw) -> Laid:
+    """Stack strips on y = 0 and cut them off, the lowest first; the rest is above the last."""
+    heights = [strip_height(strip) for strip in strips]
+    bottoms = np.cumsum([0] + [height + saw.step for height in heights]).tolist()
+    laid = [_raise(_lay_strip(strip, saw), y) for strip, y in zip(strips, bottoms, strict=False)]
+    lines = [_level(y + height + saw.gap / 2) for y, height in zip(bottoms, heights, strict=False)]
+    firsts = np.cumsum([0] + [len(placed) for placed, _ in laid]).tolist()
+    trees = [map_tree(tree, lambda line: line, first) for (_, tree), first in zip(laid, firsts, strict=False)]
+    return [item for placed, _ in laid for item in placed], {"lines": lines, "pieces": [*trees, {}]}
+
+
+def _lay_strip(strip: Strip, saw: Saw) -> Laid:
+    if isinstance(strip, Zone):
+        return _turn_down(_lay_stack(strip.runs, saw), strip.height)
+    blocks = _lay_run(strip, saw)
+    return [_placed(piece) for block in blocks for piece in block], _cut_run(blocks, saw)
+
+
+def _raise(laid: Laid, y: int) -> Laid:
+    placed, tree = laid
+    up = [Placed(item.part, item.points + np.array([0, y]), item.rotation_deg) for item in placed]
+    return up, map_tree(tree, lambda line: [[one, other + y] for one, other in line], 0)
+
+
+def _turn_down(laid: Laid, length: int) -> Laid:
+    """Turn by a quarter clockwise: what began at the left of a strip begins at the top, `length` up."""
+    placed, tree = laid
+    down = [
+        Placed(item.part, rotate(item.points, 270) + np.array([0, length]), (item.rotation_deg + 270) % 360)
+        for item in placed
+    ]
+    return down, map_tree(tree, lambda line: [[y, length - x] for x, y in line], 0)
+
+
+def _lay_run(run: Run, saw: Saw) -> list[list[_Piece]]:
     blocks: list[list[_Piece]] = []
     x = 0
-    for block in strip:
+    for block in run:
         blocks.append(_lay_block(block, saw, x))
         x = blocks[-1][-1].end + saw.step
     return blocks
@@ -91,65 +124,43 @@ def _lay_block(block: Block, saw: Saw, start: int) -> list[_Piece]:
     return [_Piece(item.part, shape, int(x), normal) for item, shape, x, normal in rows]
 
 
-def _placed(piece: _Piece, y: int) -> Placed:
-    return Placed(piece.part, piece.shape.points + np.array([piece.x, y]), piece.shape.rotation_deg)
+def _placed(piece: _Piece) -> Placed:
+    return Placed(piece.part, piece.shape.points + np.array([piece.x, 0]), piece.shape.rotation_deg)
 
 
-def _turn_down(placed: Placed, length: int) -> Placed:
-    points = rotate(placed.points, 270) + np.array([0, length])
-    return Placed(placed.part, points, (placed.rotation_deg + 270) % 360)
-
-
-def _cut_sheet(strips: list[list[list[_Piece]]], bottoms: list[int], saw: Saw) -> CutTree:
-    """Cut the strips off, the lowest first; the rest is above the last."""
-    sizes = [sum(len(block) for block in strip) for strip in strips]
-    firsts = np.cumsum([0, *sizes]).tolist()
-    rows = list(zip(strips, bottoms, firsts, strict=False))
-    lines = [_level(y + _top(strip) + saw.gap / 2) for strip, y, _ in rows]
-    return {"lines": lines, "pieces": [_cut_strip(*row, saw) for row in rows] + [{}]}
-
-
-def _cut_strip(strip: list[list[_Piece]], y: int, first: int, saw: Saw) -> CutTree:
+def _cut_run(run: list[list[_Piece]], saw: Saw) -> CutTree:
     """Cut the blocks off, the leftmost first; the rest is right of the last."""
-    firsts = np.cumsum([first] + [len(block) for block in strip]).tolist()
-    ends = [block[-1].end + saw.gap / 2 for block in strip]
-    blocks = zip(strip, firsts, strict=False)
-    pieces = [_cut_low_block(block, y, number, _top(strip), saw) for block, number in blocks]
+    firsts = np.cumsum([0] + [len(block) for block in run]).tolist()
+    ends = [block[-1].end + saw.gap / 2 for block in run]
+    top = max(block[0].shape.height for block in run)
+    pieces = [_cut_low_block(block, number, top, saw) for block, number in zip(run, firsts, strict=False)]
     return {"lines": [[[x, 0.0], [x, 1.0]] for x in ends], "pieces": [*pieces, {}]}
 
 
-def _cut_low_block(block: list[_Piece], y: int, first: int, strip_top: int, saw: Saw) -> CutTree:
+def _cut_low_block(block: list[_Piece], first: int, strip_top: int, saw: Saw) -> CutTree:
     """Cut off what is above a block that is lower than its strip."""
     top = block[0].shape.height
-    tree = _cut_block(block, y, first)
-    return {"lines": [_level(y + top + saw.gap / 2)], "pieces": [tree, {}]} if top < strip_top else tree
+    tree = _cut_block(block, first)
+    return {"lines": [_level(top + saw.gap / 2)], "pieces": [tree, {}]} if top < strip_top else tree
 
 
-def _cut_block(block: list[_Piece], y: int, first: int) -> CutTree:
+def _cut_block(block: list[_Piece], first: int) -> CutTree:
     """Cut the pieces apart along their legs."""
     leaves: list[CutTree] = [{"placement": first + k} for k in range(len(block))]
-    lines = [_leg_cut(one, other, y) for one, other in pairwise(block)]
+    lines = [_leg_cut(one, other) for one, other in pairwise(block)]
     return {"lines": lines, "pieces": leaves} if lines else leaves[0]
 
 
-def _leg_cut(one: _Piece, other: _Piece, y: int) -> list[list[float]]:
+def _leg_cut(one: _Piece, other: _Piece) -> list[list[float]]:
     """Give the line half-way between two neighbours, upwards."""
     normal = other.normal
     level = (float((one.hull @ normal).max()) + float((other.hull @ normal).min())) / 2
-    return [[float(level - normal[1] * v) / float(normal[0]), float(v + y)] for v in (0, one.shape.height)]
+    return [[float(level - normal[1] * v) / float(normal[0]), float(v)] for v in (0, one.shape.height)]
 
 
 def _level(y: float) -> list[list[float]]:
     """Give a line that has what lies below it at its left."""
     return [[1.0, y], [0.0, y]]
-
-
-def _top(strip: list[list[_Piece]]) -> int:
-    return max(piece.shape.height for block in strip for piece in block)
-
-
-def _turn_tree(tree: CutTree, length: int) -> CutTree:
-    return map_tree(tree, lambda line: [[y, length - x] for x, y in line], 0)
 
 
 def map_tree(tree: CutTree, move: Callable[[Line], Line], first: int) -> CutTree:

@@ -9,8 +9,8 @@ import shapely
 from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
 from isomould.nesting.bound import area_bound
+from isomould.nesting.cover import PLENTY, Rack
 from isomould.nesting.layout import Id, Part
-from isomould.nesting.search import Rack
 from isomould.nesting.settings import SheetStock, StockSettings, Turning, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away, stand
 from isomould.nesting.sheets import Frame
@@ -22,8 +22,9 @@ STEP = 1000
 LONGEST = 12_000
 """Grid steps in the longest strip."""
 
-PLENTY = 2**40
-"""More sheets than anyone has."""
+
+FREE = 1e-6
+"""What a remnant without a price costs, in shares of the dearest sheet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,9 +134,9 @@ def _frames(
 
 
 def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> float:
-    """Give the price if every sheet has one, else the area; both as shares of the largest."""
-    prices = [other.price for other in sheets]
-    return sheet.price / max(prices) if all(prices) else share
+    """Give the price if any sheet has one, else the area, as shares of the largest; sheets for nothing cost little."""
+    dearest = max(other.price for other in sheets)
+    return sheet.price / dearest + FREE * share if dearest else share
 
 
 def classes_by_kind(classes: Sequence[PartClass], turns: tuple[int, ...], grid: Grid) -> tuple[Kind, ...]:
@@ -154,6 +155,7 @@ def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
         capacity=(case.length + gap) // grid.step,
         room=case.height + gap,
         gap=gap,
+        step=grid.step,
         cost=case.cost,
         area=case.area,
         kinds=tuple(kind for kind in fitting if kind.items),

@@ -5,13 +5,14 @@ the same sheets.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints
-from isomould.nesting.sheets import Frame, SheetPlan, fill, narrow
+from isomould.arrays import Ints
+from isomould.nesting.cover import Rack, area_of, cost_of, fill_sheets, pieces_of, without
+from isomould.nesting.sheets import SheetPlan
 
 Effort = Literal["quick", "normal", "best"]
 
@@ -36,8 +37,8 @@ FAVOUR = 0.3
 MOST_FAVOUR = 0.8
 """The same at most, in a re-filling."""
 
-Progress = Callable[[int, int, int], None]
-"""Called with (iterations done, iterations in all, sheets)."""
+Progress = Callable[[int, int, int, int], None]
+"""Called with (iterations done, iterations in all, sheets so far, lower bound)."""
 
 
 @dataclass(frozen=True)
@@ -53,31 +54,20 @@ class Search:
         """True once the search should stop."""
         return self.should_stop is not None and self.should_stop()
 
-
-@dataclass(frozen=True, eq=False)
-class Rack:
-    """What the search works on.
-
-    Attributes
-    ----------
-    stock : (sheets,) int
-        Pieces of every stock sheet.
-    areas : (parts,) float
-        In shares of the largest sheet.
-    goal
-        Number of sheets that cannot be beaten.
-    """
-
-    frames: tuple[Frame, ...]
-    stock: Ints
-    areas: Floats
-    goal: int = 0
+    def tell(self, done: int, total: int, sheets: int, bound: int) -> None:
+        """Tell whoever wants to know how far the search has come."""
+        if self.progress is not None:
+            self.progress(done, total, sheets, bound)
 
 
 def search(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
     """Place `counts` (parts,) pieces; give the sheets, and whether the search ran to its end."""
+    return improve(rack, _first_sheets(rack, counts, task), counts, task)
+
+
+def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
+    """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
-    plans = _first_sheets(rack, counts, task)
     total = round(ROUNDS[task.effort] * len(plans))
     for done in range(total):
         if len(plans) <= rack.goal:
@@ -85,8 +75,7 @@ def search(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], boo
         if task.stops:
             return plans, False
         plans = _refill(rack, plans, counts, chance)
-        if task.progress is not None:
-            task.progress(done + 1, total, len(plans))
+        task.tell(done + 1, total, len(plans), rack.goal)
     return plans, True
 
 
@@ -95,7 +84,7 @@ def _first_sheets(rack: Rack, counts: Ints, task: Search) -> list[SheetPlan]:
     plans: list[SheetPlan] = []
     while counts.any():
         chunk = _chunk(counts, HASTE if task.stops else CHUNK)
-        plans += fill_sheets(_without(rack, plans), chunk, rack.areas ** (1 + FAVOUR))
+        plans += fill_sheets(without(rack, plans), chunk, rack.areas ** (1 + FAVOUR))
         counts = counts - chunk
     return plans
 
@@ -106,36 +95,6 @@ def _chunk(counts: Ints, size: int) -> Ints:
     return np.bincount(pieces[:: -(-len(pieces) // size)], minlength=len(counts))
 
 
-def _without(rack: Rack, plans: Sequence[SheetPlan]) -> Rack:
-    """Give the rack with the sheets of the plans taken out."""
-    used = np.bincount([plan.frame.stock for plan in plans], minlength=len(rack.stock))
-    return replace(rack, stock=rack.stock - used)
-
-
-def fill_sheets(rack: Rack, counts: Ints, values: Floats, limit: float = np.inf) -> list[SheetPlan]:
-    """Fill sheets until all is placed, the stock is used up or the cost exceeds the limit."""
-    plans: list[SheetPlan] = []
-    frames = [narrow(frame, counts) for frame in rack.frames]
-    while counts.any() and _cost(plans) <= limit:
-        left = _without(rack, plans).stock
-        best = _best_sheet([frame for frame in frames if left[frame.stock] > 0], counts, values, rack)
-        if best is None:
-            break
-        plans.append(best)
-        counts = counts - _pieces([best], len(counts))
-    return plans
-
-
-def _best_sheet(frames: Sequence[Frame], counts: Ints, values: Floats, rack: Rack) -> SheetPlan | None:
-    """Give the sheet that places most area for its cost, None if nothing fits."""
-    filled = (fill(frame, counts, values) for frame in frames)
-    return max(
-        (plan for plan in filled if plan.strips),
-        key=lambda plan: _area(rack, plan) / plan.frame.cost,
-        default=None,
-    )
-
-
 def _refill(rack: Rack, plans: list[SheetPlan], counts: Ints, chance: np.random.Generator) -> list[SheetPlan]:
     """Empty some sheets and fill them again with other worths; keep the better ones."""
     picked = _pick(rack, plans, chance)
@@ -143,14 +102,14 @@ def _refill(rack: Rack, plans: list[SheetPlan], counts: Ints, chance: np.random.
     old = [plans[index] for index in sorted(picked)]
     spread = 1 + SPREAD * chance.standard_normal(len(rack.areas))
     worth = spread * rack.areas ** (1 + chance.uniform(0, MOST_FAVOUR))
-    loose = counts - _pieces(kept, len(counts))
-    new = fill_sheets(_without(rack, kept), loose, worth, _cost(old))
+    loose = counts - pieces_of(kept, len(counts))
+    new = fill_sheets(without(rack, kept), loose, worth, cost_of(old))
     return kept + new if _merit(rack, new) >= _merit(rack, old) else plans
 
 
 def _pick(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -> set[int]:
     """Draw sheets, the emptier the likelier."""
-    waste = np.array([1 - _area(rack, plan) / plan.frame.area for plan in plans])
+    waste = np.array([1 - area_of(rack, plan) / plan.frame.area for plan in plans])
     weight = np.maximum(waste, 0) ** 2 + 1e-3
     drawn = chance.choice(len(plans), min(WINDOW, len(plans)), replace=False, p=weight / weight.sum())
     return {int(index) for index in drawn}
@@ -158,17 +117,5 @@ def _pick(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -
 
 def _merit(rack: Rack, plans: Sequence[SheetPlan]) -> tuple[float, float, float]:
     """More pieces placed, then less cost, then waste gathered on few sheets."""
-    gathered = sum(_area(rack, plan) ** 2 / plan.frame.cost for plan in plans)
-    return sum(len(plan.parts) for plan in plans), -_cost(plans), gathered
-
-
-def _cost(plans: Sequence[SheetPlan]) -> float:
-    return sum(plan.frame.cost for plan in plans)
-
-
-def _area(rack: Rack, plan: SheetPlan) -> float:
-    return float(rack.areas[plan.parts].sum())
-
-
-def _pieces(plans: Sequence[SheetPlan], parts: int) -> Ints:
-    return np.bincount([part for plan in plans for part in plan.parts], minlength=parts)
+    gathered = sum(area_of(rack, plan) ** 2 / plan.frame.cost for plan in plans)
+    return sum(len(plan.parts) for plan in plans), -cost_of(plans), gathered

@@ -15,8 +15,19 @@ LOOK_AHEAD = 3
 """Strips that a stack is planned ahead."""
 
 
-Strip = tuple[Block, ...]
+Run = tuple[Block, ...]
 """Blocks from left to right, the tallest first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Zone:
+    """A strip that is cut across: runs turned by a quarter, one beside the other; `height` in micrometres."""
+
+    height: int
+    runs: tuple[Run, ...]
+
+
+Strip = Run | Zone
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +43,7 @@ class Frame:
     capacity: int
     room: int
     gap: int
+    step: int
     cost: float
     area: float
     kinds: tuple[Kind, ...]
@@ -47,7 +59,7 @@ class SheetPlan:
     @property
     def parts(self) -> list[int]:
         """Index of every piece's part."""
-        return [part for strip in self.strips for part in _parts(strip)]
+        return [part for strip in self.strips for part in strip_parts(strip)]
 
 
 def narrow(frame: Frame, counts: Ints) -> Frame:
@@ -67,41 +79,51 @@ def fill(frame: Frame, counts: Ints, values: Floats) -> SheetPlan:
     values : (parts,) float
         Worth of a piece.
     """
-    strips: list[Strip] = []
+    strips: list[Run] = []
     counts, room = counts.copy(), frame.room
     while strip := _next_strip(frame, counts, values, room):
         strips.append(strip)
-        np.subtract.at(counts, _parts(strip), 1)
+        np.subtract.at(counts, strip_parts(strip), 1)
         room -= strip_height(strip) + frame.gap
     return SheetPlan(frame, tuple(strips))
 
 
 def strip_height(strip: Strip) -> int:
-    """Give the height of the tallest item, micrometres."""
-    return max(item.shape.height for block in strip for item in block)
+    """Give the height of the tallest item, or of the zone; micrometres."""
+    return strip.height if isinstance(strip, Zone) else max(item.shape.height for block in strip for item in block)
 
 
-def _parts(strip: Strip) -> list[int]:
-    return [item.part for block in strip for item in block]
+def strip_parts(strip: Strip) -> list[int]:
+    """Give the index of every piece's part."""
+    runs = strip.runs if isinstance(strip, Zone) else (strip,)
+    return [item.part for run in runs for block in run for item in block]
 
 
-def _next_strip(frame: Frame, counts: Ints, values: Floats, room: int) -> Strip:
+def take_once(strip: Strip, left: Ints) -> Strip:
+    """Drop what there is no piece left of, and count the others off `left`; the strip may come back empty."""
+    if not isinstance(strip, Zone):
+        return _once(strip, left)
+    runs = (_once(run, left) for run in strip.runs)
+    kept = tuple(run for run in runs if run)
+    return Zone(strip.height, kept) if kept else ()
+
+
+def _next_strip(frame: Frame, counts: Ints, values: Floats, room: int) -> Run:
     kinds = [kind for kind in frame.kinds if kind.height + frame.gap <= room]
     priced = price(kinds, counts, values, frame.capacity)
     if not priced.worth.any():
         return _alone(kinds, counts)
-    return _once(trace(priced, _best_class(priced, frame, room), frame.capacity), counts)
+    return _once(trace(priced, _best_class(priced, frame, room), frame.capacity), counts.copy())
 
 
-def _alone(kinds: Sequence[Kind], counts: Ints) -> Strip:
+def _alone(kinds: Sequence[Kind], counts: Ints) -> Run:
     """Give a strip of one part whose box just fits, where its trapezoid with a set-up does not."""
     items = (item for kind in reversed(kinds) for item in kind.items if counts[item.part])
     return next((((item,),) for item in items), ())
 
 
-def _once(blocks: Sequence[Block], counts: Ints) -> Strip:
+def _once(blocks: Sequence[Block], left: Ints) -> Run:
     """Drop what the knapsack took twice, once in each position."""
-    left = counts.copy()
     kept = (tuple(item for item in block if _take_one(left, item.part)) for block in blocks)
     return tuple(block for block in kept if block)
 

@@ -12,12 +12,9 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
 
 from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.shapes import Shape, round_away, turn_half
-
-Singles = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,15 +118,18 @@ class Priced:
     ----------
     heights : (k,) int, micrometres, ascending
     worth : (k,) float
+    tables
+        Worth of the best strip of every length in grid steps, one (capacity + 1,) per height; only if asked for.
     """
 
     heights: Ints
     worth: Floats
+    tables: list[Floats]
     layers: list[_Layer]
 
 
-def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int) -> Priced:
-    """Solve the knapsack of every height class, in single precision: decisions are kept, not recomputed.
+def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int, *, all_lengths: bool = False) -> Priced:
+    """Solve the knapsack of every height class.
 
     Parameters
     ----------
@@ -138,16 +138,18 @@ def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int) ->
     values : (parts,) float
         What a piece is worth: its area in the search, its dual price in column generation.
     """
-    best, singles = np.zeros(capacity + 1, dtype=np.float32), values.astype(np.float32)
+    best = np.zeros(capacity + 1)
     layers: list[_Layer] = []
     worth: list[float] = []
+    tables: list[Floats] = []
     for kind in kinds:
         items = [item for item in kind.items for _ in range(_copies(item, counts, capacity))]
         if items and kind.setup < capacity:
-            layers.append(_layer(kind, items, best, singles))
+            layers.append(_layer(kind, items, best, values))
             worth.append(float(best[-1]))
+            tables += [best.copy()] if all_lengths else []
     heights = np.array([layer.kind.height for layer in layers], dtype=np.int64)
-    return Priced(heights, np.array(worth), layers)
+    return Priced(heights, np.array(worth), tables, layers)
 
 
 def _copies(item: Item, counts: Ints, capacity: int) -> int:
@@ -155,7 +157,7 @@ def _copies(item: Item, counts: Ints, capacity: int) -> int:
     return left if left <= 1 else min(left, capacity // item.size)
 
 
-def _layer(kind: Kind, items: list[Item], best: Singles, values: Singles) -> _Layer:
+def _layer(kind: Kind, items: list[Item], best: Floats, values: Floats) -> _Layer:
     """Take up one kind into `best`, in place."""
     if not kind.setup:
         return _Layer(kind, None, items, [_take(best, item.size, values[item.part]) for item in items])
@@ -166,7 +168,7 @@ def _layer(kind: Kind, items: list[Item], best: Singles, values: Singles) -> _La
     return _Layer(kind, pays, items, taken)
 
 
-def _take(best: Singles, size: int, value: float) -> Bools:
+def _take(best: Floats, size: int, value: float) -> Bools:
     if size >= len(best):
         return np.zeros(0, dtype=np.bool_)
     with_it = best[:-size] + value

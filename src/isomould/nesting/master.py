@@ -1,0 +1,105 @@
+"""The master programme of column generation: which strips and which stacks of them, in fractions.
+
+A column is a strip, made of parts and lying in a slot; or a stack, the slots of one sheet, at the sheet's cost.
+A slot is a height on a frame. Slots of every kind must suffice for the strips, and a taller one may hold a
+lower strip. Solved by HiGHS, each time from its last basis (nesting, "What works", 4).
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import highspy
+import numpy as np
+
+from isomould.arrays import Floats, Ints
+from isomould.nesting.sheets import SheetPlan, Strip, strip_height, strip_parts
+
+Slot = tuple[int, bool, int]
+"""Stock, whether turned, height in micrometres."""
+
+Stack = tuple[Slot, ...]
+"""The slots of a sheet."""
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A strip in its slot, or (`strip` empty) a stack; `takes` are pieces per part."""
+
+    strip: Strip
+    stack: Stack
+    takes: tuple[tuple[int, int], ...] = ()
+
+
+@dataclass(eq=False)
+class Master:
+    """A growing programme; columns in the order in which the solver knows them."""
+
+    counts: Ints
+    solver: Any = field(default_factory=highspy.Highs)
+    slots: dict[Slot, int] = field(default_factory=dict[Slot, int])
+    columns: list[Column] = field(default_factory=list[Column])
+    known: set[object] = field(default_factory=set[object])
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Least cost in fractions, what a piece of every part is worth (parts,), and the uses of every column."""
+
+    cost: float
+    worth: Floats
+    uses: Floats
+
+
+def make_master(counts: Ints) -> Master:
+    """Set up a programme with a row for every part and no column yet."""
+    master = Master(counts)
+    master.solver.setOptionValue("output_flag", False)
+    master.solver.setOptionValue("threads", 1)
+    for count in counts.tolist():
+        master.solver.addRow(float(count), highspy.kHighsInf, 0, [], [])
+    return master
+
+
+def add_plans(master: Master, plans: Sequence[SheetPlan]) -> None:
+    """Add the strips and the stacks of sheets."""
+    for plan in plans:
+        slots = [(plan.frame.stock, plan.frame.turned, strip_height(strip)) for strip in plan.strips]
+        for slot, strip in zip(slots, plan.strips, strict=True):
+            takes = Counter(strip_parts(strip))
+            _add(master, Column(strip, (slot,), tuple(takes.items())), 0.0, {**takes, _row(master, slot): -1})
+        stack = Column((), tuple(sorted(slots)))
+        _add(master, stack, plan.frame.cost, Counter(_row(master, slot) for slot in slots))
+
+
+def _row(master: Master, slot: Slot) -> int:
+    if slot not in master.slots:
+        master.slots[slot] = master.solver.getNumRow()
+        master.solver.addRow(0.0, highspy.kHighsInf, 0, [], [])
+    return master.slots[slot]
+
+
+def _add(master: Master, column: Column, cost: float, entries: dict[int, int]) -> None:
+    key = (cost, *sorted(entries.items()))
+    if key not in master.known:
+        master.known.add(key)
+        rows = np.array(sorted(entries), dtype=np.int32)
+        values = np.array([entries[row] for row in rows.tolist()], dtype=np.float64)
+        master.solver.addCol(cost, 0.0, highspy.kHighsInf, len(rows), rows, values)
+        master.columns.append(column)
+
+
+def solve(master: Master, left: Ints) -> Solution:
+    """Solve for the pieces that are left; strips that take more of a part than that are barred."""
+    parts = np.arange(len(left), dtype=np.int32)
+    master.solver.changeRowsBounds(len(left), parts, left.astype(np.float64), np.full(len(left), highspy.kHighsInf))
+    counts = left.tolist()
+    barred = [any(counts[part] < count for part, count in column.takes) for column in master.columns]
+    upper = np.where(barred, 0.0, highspy.kHighsInf)
+    columns = np.arange(len(upper), dtype=np.int32)
+    master.solver.changeColsBounds(len(upper), columns, np.zeros(len(upper)), upper)
+    master.solver.run()
+    found = master.solver.getSolution()
+    worth = np.maximum(np.array(found.row_dual)[: len(left)], 0.0)
+    return Solution(master.solver.getInfo().objective_function_value, worth, np.array(found.col_value))

@@ -1,0 +1,192 @@
+"""Few classes with many pieces: whole sheets as columns, priced by a nested programme, then cut in whole numbers.
+
+A sheet is a stack of strips, and a strip may be a zone: cut across, with runs that are turned by a quarter
+(three stages). The programme knows the best run of every length and the best stack of runs in every zone,
+so that it finds the best sheet for given worths of the pieces (Gilmore and Gomory 1965). HiGHS then picks
+whole numbers of the sheets that were found.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, linprog, milp
+
+from isomould.arrays import Floats, Ints
+from isomould.nesting.cover import Rack, cost_of, fill_sheets, pieces_of
+from isomould.nesting.search import FAVOUR, Search
+from isomould.nesting.sheets import Frame, SheetPlan, Zone, take_once
+from isomould.nesting.strips import Priced, price, trace
+
+FEW = 60
+"""Classes up to which whole sheets pay."""
+
+MANY = 6
+"""Pieces of a class from which they do."""
+
+ZONES = 250
+"""Different zones that are tried per frame."""
+
+LEVELS = 1500
+"""Steps into which a stack of runs in a zone is divided at most."""
+
+ROUNDS = 60
+"""Times that sheets are priced."""
+
+NODES = 2000
+"""Nodes of the search for whole numbers."""
+
+
+def worth_trying(counts: Ints) -> bool:
+    """Tell whether there are few enough classes with enough pieces for whole sheets to pay."""
+    return 0 < len(counts) <= FEW and float(counts.mean()) >= MANY
+
+
+@dataclass(frozen=True, eq=False)
+class Stacks:
+    """The best stacks of items of some heights for every room: one column per case.
+
+    Attributes
+    ----------
+    worth : (room + 1, cases) float
+    last : (room + 1, cases) int
+        Item on top of the best stack, -1 where the room above the last stays empty.
+    """
+
+    heights: Ints
+    worth: Floats
+    last: Ints
+
+    def trace(self, case: int) -> list[int]:
+        """Give the items of the best stack in the whole room."""
+        room, chosen = len(self.last) - 1, list[int]()
+        while room > 0:
+            item = int(self.last[room, case])
+            chosen += [item] if item >= 0 else []
+            room -= int(self.heights[item]) if item >= 0 else 1
+        return chosen
+
+
+def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
+    """Solve the unbounded knapsack of heights (k,) ascending, with a worth (k, cases) each, in grid steps."""
+    cases = np.arange(worth.shape[1])
+    best = np.zeros((room + 1, len(cases)))
+    last = np.full(best.shape, -1, dtype=np.int64)
+    fitting = np.searchsorted(heights, np.arange(room + 1), side="right")
+    for level in range(1, room + 1):
+        best[level] = best[level - 1]
+        if fitting[level]:
+            with_it = best[level - heights[: fitting[level]]] + worth[: fitting[level]]
+            item = with_it.argmax(axis=0)
+            better = with_it[item, cases] > best[level] + 1e-12
+            best[level, better], last[level, better] = with_it[item, cases][better], item[better]
+    return Stacks(heights, best, last)
+
+
+def find_sheets(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
+    """Place all pieces, for stock without limits; give the sheets, and whether the search ran to its end."""
+    first = fill_sheets(rack, counts, rack.areas ** (1 + FAVOUR))
+    plans, mean = first, np.zeros(0)
+    for done in range(ROUNDS):
+        if task.stops or len(first) <= rack.goal:
+            return first, not task.stops
+        task.tell(done, ROUNDS, len(first), rack.goal)
+        worth = _worth(plans, counts)
+        mean = (mean + worth) / 2 if len(mean) else worth
+        new = _gaining(_priced_sheets(rack, counts, mean), worth) or _gaining(
+            _priced_sheets(rack, counts, worth), worth
+        )
+        if not new:
+            break
+        plans = plans + new
+    return _whole(plans, counts, first), True
+
+
+def _gaining(plans: Sequence[SheetPlan], worth: Floats) -> list[SheetPlan]:
+    """Keep the sheets that are worth more than they cost."""
+    return [plan for plan in plans if worth[plan.parts].sum() > plan.frame.cost * (1 + 1e-6)]
+
+
+def _matrix(plans: Sequence[SheetPlan], parts: int) -> Ints:
+    return np.column_stack([pieces_of([plan], parts) for plan in plans])
+
+
+def _worth(plans: Sequence[SheetPlan], counts: Ints) -> Floats:
+    cost = np.array([plan.frame.cost for plan in plans])
+    result = linprog(cost, A_ub=-_matrix(plans, len(counts)), b_ub=-counts, method="highs-ds")
+    return np.maximum(-np.asarray(result.ineqlin.marginals), 0.0)
+
+
+def _whole(plans: Sequence[SheetPlan], counts: Ints, first: list[SheetPlan]) -> list[SheetPlan]:
+    """Cover the counts by whole numbers of sheets and drop what is too much, if that is better than the first."""
+    cost = np.array([plan.frame.cost for plan in plans])
+    found = milp(
+        cost,
+        constraints=LinearConstraint(_matrix(plans, len(counts)), counts, np.inf),
+        integrality=np.ones(len(plans), dtype=np.int64),
+        bounds=Bounds(0, np.inf),
+        options={"node_limit": NODES},
+    )
+    if found.x is None:
+        return first
+    left = counts.copy()
+    chosen = np.repeat(np.arange(len(plans)), np.rint(found.x).astype(np.int64))
+    sheets = [_cut_down(plans[k], left) for k in chosen.tolist()]
+    return min(first, [sheet for sheet in sheets if sheet.strips], key=cost_of)
+
+
+def _cut_down(plan: SheetPlan, left: Ints) -> SheetPlan:
+    strips = [take_once(strip, left) for strip in plan.strips]
+    return SheetPlan(plan.frame, tuple(strip for strip in strips if strip))
+
+
+def _priced_sheets(rack: Rack, counts: Ints, worth: Floats) -> list[SheetPlan]:
+    """Give the best sheet of every frame."""
+    priced = [price(f.kinds, counts, worth, f.capacity, all_lengths=True) for f in rack.frames]
+    pairs = list(zip(rack.frames, priced, strict=True))
+    sheets = [_best_sheet(frame, own, _zones(frame, pairs)) for frame, own in pairs]
+    return [_cut_down(sheet, counts.copy()) for sheet in sheets]
+
+
+@dataclass(frozen=True, eq=False)
+class _Zones:
+    """Zones of some sizes (height in grid steps), each with the best stack of runs in it; `make` gives one."""
+
+    sizes: Ints
+    worth: Floats
+    make: Callable[[int], Zone]
+
+
+def _zones(frame: Frame, pairs: Sequence[tuple[Frame, Priced]]) -> _Zones:
+    """Fill zones of every size with runs of the frame that cuts the same sheet the other way, if there is one."""
+    for other, priced in pairs:
+        if other.stock == frame.stock and other.turned != frame.turned and priced.tables:
+            sizes = _sizes(min(frame.room // frame.step, other.capacity))
+            step = other.step * -(-other.room // (other.step * LEVELS))
+            heights = -(-(priced.heights + other.gap) // step)
+            stacks = stack_up(heights, np.array(priced.tables)[:, sizes], other.room // step)
+            return _Zones(sizes, stacks.worth[-1], partial(_zone, frame, sizes, stacks, priced))
+    return _Zones(np.zeros(0, dtype=np.int64), np.zeros(0), lambda _: Zone(0, ()))
+
+
+def _zone(frame: Frame, sizes: Ints, stacks: Stacks, priced: Priced, index: int) -> Zone:
+    size = int(sizes[index])
+    runs = [tuple(trace(priced, level, size)) for level in stacks.trace(index)]
+    return Zone(size * frame.step - frame.gap, tuple(run for run in runs if run))
+
+
+def _sizes(room: int) -> Ints:
+    coarse = -(-room // ZONES)
+    return np.arange(room % coarse or coarse, room + 1, coarse)
+
+
+def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
+    """Give the best stack of runs and zones."""
+    heights = np.append(-(-(own.heights + frame.gap) // frame.step), zones.sizes)
+    order = np.argsort(heights, kind="stable")
+    worth = np.append(own.worth, zones.worth)[order]
+    found = order[stack_up(heights[order], worth[:, None], frame.room // frame.step).trace(0)].tolist()
+    runs = len(own.heights)
+    strips = [tuple(trace(own, k, frame.capacity)) if k < runs else zones.make(k - runs) for k in found]
+    return SheetPlan(frame, tuple(strips))
