@@ -40,6 +40,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
             "gap_mm": stock.gap,
             "kerf_mm": stock.kerf,
             "trim_mm": stock.trim,
+            "guillotine": stock.guillotine,
             "bar_kerf_mm": stock.bar_kerf,
             "bar_trim_mm": stock.bar_trim,
         },

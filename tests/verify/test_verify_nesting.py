@@ -27,6 +27,24 @@ def placements():
     return found
 
 
+def row(y, first):
+    """Two panels apart along their legs, then what is right of them off; the line leans as the legs do."""
+    foot, head = (1097.5, 997.5) if first == 0 else (1122.5, 1222.5)
+    return {
+        "lines": [[[foot, y], [head, y + 500]], [[2600.0, y], [2600.0, y + 1]]],
+        "pieces": [{"placement": first}, {"placement": first + 1}, {}],
+    }
+
+
+TREE = {
+    "lines": [[[1.0, 522.5], [0.0, 522.5]], [[1.0, 1027.5], [0.0, 1027.5]]],
+    "pieces": [row(20, 0), row(525, 2), {}],
+}
+SLANT = float(np.hypot(100, 500) / 500)
+# Two strips cut off, of which the kerf of 3 mm leaves 501 and 502 mm; in each one cut along the legs and one upright.
+CUTTING = {"cuts": 6, "cut_length_mm": 2 * 2960 + (501 + 502) * (1 + SLANT)}
+
+
 def outline(points, layer="CUT"):
     return Outline(layer, points, np.zeros(len(points)), True)
 
@@ -37,10 +55,12 @@ def drawing(placed, width=3000.0, height=1200.0):
     return Drawing("S001", 4, (), (outline(sheet, "SHEET"), *cuts), ())
 
 
-def delivery(*, placed=None, drawn=None, part=PART, unplaced=(), quantity=4, sheet="S001", **columns):
+def delivery(
+    *, placed=None, drawn=None, part=PART, unplaced=(), quantity=4, sheet="S001", tree=TREE, cutting=CUTTING, **columns
+):
     placed = placements() if placed is None else placed
     share = 4 * AREA / (3000 * 1200)
-    raw = {"yield_percent": 100 * share, "bound": 1, "unplaced": list(unplaced)}
+    raw = {"yield_percent": 100 * share, "bound": 1, "unplaced": list(unplaced), "cut_tree": {"S001": tree}, **cutting}
     rows = {
         "sheet": ["S001"],
         "parts": [4],
@@ -112,6 +132,14 @@ FAULTS = [
     ("V34", {"parts": [3]}),
     ("V34b", {"yield_percent": [47.2]}),
     ("V35", {"placed": placements() * 3}),
+    ("V36", {"placed": shifted(1, [-160.0, 0])}),
+    ("V36", {"placed": shifted(2, [0, -1.1])}),
+    ("V36", {"tree": {"placement": 0}}),
+    ("V36", {"tree": TREE | {"lines": TREE["lines"][::-1]}}),
+    ("V36", {"cutting": {"cut_tree": None}}),
+    ("V36", {"tree": TREE | {"pieces": TREE["pieces"][:2]}}),
+    ("V36b", {"cutting": CUTTING | {"cuts": 5}}),
+    ("V36b", {"cutting": CUTTING | {"cut_length_mm": CUTTING["cut_length_mm"] + 0.001}}),
 ]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from isomould.arrays import Floats, Ints
+from isomould.nesting.cut_checker import replay, sheet_inside, stands_out
 from isomould.nesting.layout import BLANK, CutTree, Layout, Part, Placement, Sheet
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 
@@ -198,6 +199,29 @@ def _check_areas(_: Sequence[Part], __: StockSettings, layout: Layout) -> Iterat
         yield Finding("N-AREA-03", "part area", f"{part_area:g} mm2", f"{len(layout.sheets)} sheets")
 
 
+def _check_offcut(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    """The offcut is a rectangle inside the trim, half a kerf clear of every part, and credited as it is."""
+    offcut, sheets = layout.offcut, {sheet.id: sheet for sheet in layout.sheets}
+    bought = sum(sheet.width * sheet.height for sheet in layout.sheets)
+    spared = offcut.width * offcut.height if offcut else 0.0
+    percent = layout.yield_percent * bought / (bought - spared) if bought else 0.0
+    if layout.cut_trees and abs(percent - layout.yield_with_offcut_percent) > 1e-9 * 100:
+        yield Finding("N-OFFCUT-01", "yield with offcut", f"{layout.yield_with_offcut_percent!r} %", f"{percent!r} %")
+    if offcut is None:
+        return
+    rectangle = shapely.box(offcut.x, offcut.y, offcut.x + offcut.width, offcut.y + offcut.height)
+    sheet = sheets[offcut.sheet]
+    room = shapely.box(stock.trim, stock.trim, sheet.width - stock.trim, sheet.height - stock.trim)
+    if not room.buffer(TOLERANCE).covers(rectangle):
+        yield Finding("N-OFFCUT-02", f"offcut of {sheet.id}", str(rectangle), "inside the trim")
+    clear = max(stock.kerf / 2 - 2 * TOLERANCE, 0.0)
+    for item in layout.placements:
+        polygon = shapely.Polygon(item.points)
+        near = polygon.distance(rectangle) < clear or polygon.intersection(rectangle).area > TOLERANCE
+        if item.sheet == sheet.id and near:
+            yield Finding("N-OFFCUT-03", f"offcut of {sheet.id}", f"part {item.id} reaches into it", "free of parts")
+
+
 def _check_cuts(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
     if stock.guillotine and layout.sheets and not layout.cut_trees:
         yield Finding("N-CUT-01", "cut trees", "none", "one per sheet: the stock is cut by guillotine")
@@ -213,59 +237,35 @@ def _check_cuts(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iter
 def _check_tree(
     sheet: str, tree: CutTree, indices: set[int], stock: StockSettings, layout: Layout
 ) -> Iterator[Finding]:
-    freed = list(_freed(tree))
-    if not _well_formed(tree):
-        yield Finding("N-CUT-04", f"sheet {sheet}", "lines and pieces do not match", "one piece more than lines")
+    try:
+        found = replay(tree, sheet_inside(layout, sheet, stock.trim), stock.kerf)
+    except (ValueError, TypeError) as fault:
+        yield Finding("N-CUT-04", f"sheet {sheet}", str(fault), "one piece more than lines")
         return
-    if sorted(freed) != sorted(indices):
-        yield Finding("N-CUT-02", f"sheet {sheet}", f"cuts free {sorted(freed)}", f"placements {sorted(indices)}")
+    held = [freed for freed in found.freed if freed.placement is not None]
+    if sorted(freed.placement or 0 for freed in held) != sorted(indices):
+        freed_indices = [freed.placement for freed in held]
+        yield Finding("N-CUT-02", f"sheet {sheet}", f"cuts free {freed_indices}", f"placements {sorted(indices)}")
         return
-    for line, left, right in _cuts(tree):
-        clear = min(_clearance(line, left, layout, 1.0), _clearance(line, right, layout, -1.0))
-        if not clear >= stock.kerf / 2 - TOLERANCE:
-            where = f"sheet {sheet}, cut {line.tolist()}"
-            yield Finding("N-CUT-03", where, f"{clear:.6f} mm from a part", f"half the kerf, {stock.kerf / 2:g} mm")
-
-
-def _well_formed(tree: CutTree) -> bool:
-    pieces = tree.get("pieces", [])
-    matched = len(pieces) == len(tree["lines"]) + 1 if "lines" in tree else not pieces
-    return matched and all(_well_formed(piece) for piece in pieces)
-
-
-def _freed(tree: CutTree) -> Iterator[int]:
-    if "placement" in tree:
-        yield tree["placement"]
-    for piece in tree.get("pieces", []):
-        yield from _freed(piece)
-
-
-def _cuts(tree: CutTree) -> Iterator[tuple[Floats, list[int], list[int]]]:
-    """Replay the cuts. One through a convex piece goes from edge to edge: only the sides are to check."""
-    pieces = tree.get("pieces", [])
-    freed = [list(_freed(piece)) for piece in pieces]
-    for k, line in enumerate(tree.get("lines", [])):
-        yield np.array(line, dtype=np.float64), _joined(freed[: k + 1]), _joined(freed[k + 1 :])
-    for piece in pieces:
-        yield from _cuts(piece)
-
-
-def _joined(lists: Iterable[list[int]]) -> list[int]:
-    return [index for indices in lists for index in indices]
-
-
-def _clearance(line: Floats, indices: list[int], layout: Layout, side: float) -> float:
-    if not indices:
-        return np.inf
-    points = np.vstack([layout.placements[index].points for index in indices])
-    along = line[1] - line[0]
-    across = np.array([-along[1], along[0]]) / np.hypot(*along)
-    return float((side * ((points - line[0]) @ across)).min())
+    for freed in held:
+        item = layout.placements[freed.placement or 0]
+        out = stands_out(item.points, freed.piece)
+        if not out <= TOLERANCE:
+            yield Finding("N-CUT-03", f"part {item.id} on {sheet}", f"cut into by {out:.6f} mm", "cut free whole")
 
 
 _STAGES = (
     (_check_names,),
     (_check_transforms,),
-    (_check_quantities, _check_locations, _check_stock, _check_edges, _check_gaps, _check_areas, _check_cuts),
+    (
+        _check_quantities,
+        _check_locations,
+        _check_stock,
+        _check_edges,
+        _check_gaps,
+        _check_areas,
+        _check_offcut,
+        _check_cuts,
+    ),
 )
 """Later stages may take for granted what the earlier ones have proved."""

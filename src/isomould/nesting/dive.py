@@ -13,13 +13,13 @@ import numpy as np
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cover import Rack, cost_of, fill_sheets, pieces_of
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
-from isomould.nesting.search import FAVOUR, Effort, Search
+from isomould.nesting.search import Effort, Search
 from isomould.nesting.sheets import SheetPlan
 
 MOST = 2000
 """Different parts up to which the master programme pays."""
 
-ROUNDS: dict[Effort, int] = {"quick": 0, "normal": 3, "best": 12}
+ROUNDS: dict[Effort, int] = {"quick": 0, "normal": 8, "best": 16}
 """Covers that are generated before the dive, by effort."""
 
 AGAIN = 2
@@ -62,10 +62,11 @@ class _Use:
     amount: float
 
 
-def dive(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
-    """Place all pieces, for stock without limits; give the sheets, and whether the search ran to its end."""
-    state = _Dive(rack, make_master(counts), rack.areas ** (1 + FAVOUR), np.random.default_rng(0))
-    best = _cover(state, counts)
+def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
+    """Better a first filling, with stock without limits; give the sheets, and whether the search ran to its end."""
+    state = _Dive(rack, make_master(counts), rack.areas, np.random.default_rng(0))
+    add_plans(state.master, first)
+    best = first
     for done in range(ROUNDS[task.effort]):
         if task.stops or len(best) <= rack.goal:
             return best, not task.stops
@@ -106,9 +107,9 @@ def _sink(state: _Dive, left: Ints, best: list[SheetPlan], task: Search) -> tupl
         task.tell(len(fixed), len(best), len(best), state.rack.goal)
         fixed, left = fixed + new, left - pieces_of(new, len(left))
         for _ in range(AGAIN):
+            _learn(state, solution, done=1)
             best = min(best, fixed + _cover(state, left), key=cost_of)
             solution = solve(state.master, left)
-            _learn(state, solution, done=1)
     return best, True
 
 

@@ -7,9 +7,21 @@ import numpy as np
 
 from isomould.arrays import read_only
 from isomould.errors import Refused
-from isomould.nesting.layout import Layout, Placement, Sheet, Unplaced
+from isomould.nesting.layout import Layout, Offcut, Placement, Sheet, Unplaced
 
 SCHEMA = 1
+
+_PLAIN = (
+    "bound",
+    "bound_kind",
+    "pattern_bound",
+    "yield_percent",
+    "yield_with_offcut_percent",
+    "cuts",
+    "status",
+    "reproducible",
+)
+"""Fields that are the same in the file."""
 
 
 def layout_to_json(layout: Layout) -> str:
@@ -22,7 +34,12 @@ def layout_to_json(layout: Layout) -> str:
         "bound": layout.bound,
         "bound_kind": layout.bound_kind,
         "gap_to_bound": layout.gap_to_bound,
+        "pattern_bound": layout.pattern_bound,
         "yield_percent": layout.yield_percent,
+        "yield_with_offcut_percent": layout.yield_with_offcut_percent,
+        "offcut": vars(layout.offcut) if layout.offcut else None,
+        "cuts": layout.cuts,
+        "cut_length_mm": layout.cut_length,
         "placements": [_placement(item) for item in layout.placements],
         "unplaced": [_unplaced(item) for item in layout.unplaced],
         "cut_tree": layout.cut_trees or None,
@@ -62,7 +79,9 @@ def _layout(table: dict[str, Any]) -> Layout:
         placements=tuple(_read_placement(item) for item in table["placements"]),
         unplaced=tuple(_read_unplaced(item) for item in table["unplaced"]),
         cut_trees=table["cut_tree"] or {},
-        **{key: table[key] for key in ("bound", "bound_kind", "yield_percent", "status", "reproducible")},
+        cut_length=table["cut_length_mm"],
+        offcut=Offcut(**table["offcut"]) if table["offcut"] else None,
+        **{key: table[key] for key in _PLAIN},
     )
 
 

@@ -72,11 +72,33 @@ class Unplaced:
     location: str | None = None
 
 
+@dataclass(frozen=True)
+class Offcut:
+    """A rectangle of a sheet that the cutting leaves in one piece; `x`, `y` its lower left corner. Lengths in mm."""
+
+    sheet: str
+    x: float
+    y: float
+    width: float
+    height: float
+
+
 @dataclass(frozen=True, eq=False)
 class Layout:
     """Sheets with their placements, and a lower bound for the number of sheets.
 
-    `cut_trees` names for every sheet id the guillotine cuts in order; empty if the layout has none.
+    Attributes
+    ----------
+    bound
+        For any layout: no nesting of these parts uses fewer sheets.
+    pattern_bound
+        For layouts of the kind that was searched, measured on its grid; None if it was not computed.
+    cut_trees
+        Names for every sheet id the guillotine cuts in order; empty if the layout has none.
+    cuts, cut_length
+        Straight cuts of the trees, the trim's not counted, and their length in mm.
+    offcut
+        The largest rectangle left over; `yield_with_offcut_percent` does not count it as bought.
     """
 
     sheets: tuple[Sheet, ...]
@@ -88,6 +110,11 @@ class Layout:
     cut_trees: dict[str, CutTree]
     status: Status = "complete"
     reproducible: bool = True
+    pattern_bound: int | None = None
+    cuts: int = 0
+    cut_length: float = 0.0
+    offcut: Offcut | None = None
+    yield_with_offcut_percent: float = 0.0
 
     @property
     def gap_to_bound(self) -> int:

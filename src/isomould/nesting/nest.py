@@ -10,6 +10,7 @@ from isomould.nesting.bound import area_bound, dilated_area, grown_rectangle, sh
 from isomould.nesting.checker import check_layout
 from isomould.nesting.cover import fill_sheets
 from isomould.nesting.layout import Id, Layout, Part
+from isomould.nesting.offcuts import measure_cuts
 from isomould.nesting.portfolio import find_plans
 from isomould.nesting.rack import (
     blank_length,
@@ -98,13 +99,14 @@ def _refuse_long(parts: Sequence[Part], stock: StockSettings) -> None:
 
 
 def prove(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> Layout:
-    """Give the layout back if the checker finds nothing wrong with it.
+    """Measure the cuts of a layout and give it back if the checker finds nothing wrong with it.
 
     Raises
     ------
     AssertionError
         A fault of this program, never of its input.
     """
+    layout = measure_cuts(layout, stock)
     findings = check_layout(parts, stock, layout)
     if findings:
         message = f"the layout failed its own check ({len(findings)} findings): {findings[0]}"

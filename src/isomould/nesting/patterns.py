@@ -14,8 +14,8 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 
 from isomould.arrays import Floats, Ints
-from isomould.nesting.cover import Rack, cost_of, fill_sheets, pieces_of
-from isomould.nesting.search import FAVOUR, Search
+from isomould.nesting.cover import Rack, cost_of, pieces_of
+from isomould.nesting.search import Search
 from isomould.nesting.sheets import Frame, SheetPlan, Zone, take_once
 from isomould.nesting.strips import Priced, price, trace
 
@@ -84,9 +84,8 @@ def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
     return Stacks(heights, best, last)
 
 
-def find_sheets(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
-    """Place all pieces, for stock without limits; give the sheets, and whether the search ran to its end."""
-    first = fill_sheets(rack, counts, rack.areas ** (1 + FAVOUR))
+def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
+    """Better a first filling, with stock without limits; give the sheets, and whether the search ran to its end."""
     plans, mean = first, np.zeros(0)
     for done in range(ROUNDS):
         if task.stops or len(first) <= rack.goal:

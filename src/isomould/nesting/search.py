@@ -60,11 +60,6 @@ class Search:
             self.progress(done, total, sheets, bound)
 
 
-def search(rack: Rack, counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
-    """Place `counts` (parts,) pieces; give the sheets, and whether the search ran to its end."""
-    return improve(rack, _first_sheets(rack, counts, task), counts, task)
-
-
 def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
     """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
@@ -79,7 +74,7 @@ def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> t
     return plans, True
 
 
-def _first_sheets(rack: Rack, counts: Ints, task: Search) -> list[SheetPlan]:
+def first_sheets(rack: Rack, counts: Ints, task: Search) -> list[SheetPlan]:
     """Fill chunk by chunk; once told to stop, in chunks small enough to be done in no time."""
     plans: list[SheetPlan] = []
     while counts.any():

@@ -1,18 +1,20 @@
-"""V31-V35: every part lies once on a sheet, in its own shape, with its gap, and the areas add up."""
+"""V31-V36: every part lies once on a sheet, in its own shape, with its gap, the areas add up, the cuts free it."""
 
 from collections import Counter
 from math import ceil, pi
+from typing import Any
 
 import numpy as np
 import shapely
 from scipy.spatial import KDTree
 
+from isomould.verify.cutting import Loop, reach, saw
 from isomould.verify.delivery import Delivery
 from isomould.verify.planar import loop_distance, quarter_turned, signed_area, to_origin
 from isomould.verify.read.dxf import Drawing, Outline, one_outline, outlines_on
 from isomould.verify.read.layout import Placement
 from isomould.verify.read.tables import half_unit, numbers, texts
-from isomould.verify.rules import Floats, Measured, Rule, Unreadable, faults, worse, worst_of
+from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, Unreadable, faults, worse, worst_of
 
 LENGTH = 1e-6
 
@@ -175,6 +177,49 @@ def _dilated(points: Floats, by: float) -> float:
     return abs(signed_area(points)) + float(perimeter) * by + pi * by**2
 
 
+def freed(delivery: Delivery) -> Measured:
+    """How far a part reaches out of the piece that the cutting tree frees for it."""
+    found = [_reach(delivery, name, tree) for name, tree in _trees(delivery).items()]
+    return worse(*found)
+
+
+def _trees(delivery: Delivery) -> dict[str, dict[str, Any]]:
+    trees = delivery.layout.raw.get("cut_tree")
+    if trees is None and not delivery.design.raw["nesting"].get("guillotine", True):
+        message = "the sheets need not be cut edge to edge"
+        raise NotApplicable(message)
+    if trees is None or trees.keys() != delivery.layout.sheets.keys():
+        message = "there is no cutting tree for every sheet"
+        raise Unreadable(message)
+    return trees
+
+
+def _sawn(delivery: Delivery, name: str, tree: dict[str, Any]) -> list[tuple[int | None, Loop, float]]:
+    nesting = delivery.design.raw["nesting"]
+    trim, (width, height) = float(nesting["trim_mm"]), delivery.layout.sheets[name]
+    right, top = width - trim, height - trim
+    return list(saw(tree, [(trim, trim), (right, trim), (right, top), (trim, top)], float(nesting["kerf_mm"])))
+
+
+def _reach(delivery: Delivery, name: str, tree: dict[str, Any]) -> Measured:
+    """Judge one sheet; infinite if its tree frees other parts than those that lie on it."""
+    pieces = [(index, piece) for index, piece, _ in _sawn(delivery, name, tree) if index is not None]
+    placed = delivery.layout.placements
+    lying = [index for index, item in enumerate(placed) if item.sheet == name]
+    if sorted(index for index, _ in pieces) != lying:
+        return Measured(max(len(lying), 1), np.inf, f"{name}: other parts are freed than lie on it")
+    out = [reach([(x, y) for x, y in placed[index].points.tolist()], piece) for index, piece in pieces]
+    return worst_of(out, [f"{name} {placed[index].location}" for index, _ in pieces])
+
+
+def counted(delivery: Delivery) -> Measured:
+    """Number and length of the cuts as the layout claims them."""
+    lengths = [cut for name, tree in _trees(delivery).items() for _, _, cut in _sawn(delivery, name, tree) if cut > 0]
+    raw = delivery.layout.raw
+    off = [abs(len(lengths) - int(raw["cuts"])), abs(sum(lengths) - float(raw["cut_length_mm"]))]
+    return worst_of(off, ["cuts", "cut length"], limit=1e-6 * max(len(lengths), 1))
+
+
 RULES = (
     Rule("V31", "every part is placed exactly as often as scheduled", 0, "faults", presence),
     Rule("V31b", "cut sheets show the layout", LENGTH, "mm", drawn),
@@ -184,4 +229,6 @@ RULES = (
     Rule("V34", "part areas of the sheets = schedule", 1e-9, "relative", areas),
     Rule("V34b", "yields of sheets and layout", half_unit("yield_percent"), "%", yields),
     Rule("V35", "sheets hold no more than their area", 1.0, "fill", bound),
+    Rule("V36", "cuts from edge to edge free every part whole", LENGTH, "mm out", freed),
+    Rule("V36b", "cuts and their length", LENGTH, "mm", counted),
 )
