@@ -23,7 +23,7 @@ from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
-from isomould.nesting.search import Effort, Search
+from isomould.nesting.search import Effort, Progress, Search
 from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder, schedule_folder
 from isomould.project.load import load_project, read_tables
@@ -150,7 +150,13 @@ def verify(folder: str | Path, jobs: int | None = None) -> Certificate:
         return verify_folder(Path(folder), spread=spread)
 
 
-def nest(instance: str | Path, out: str | Path, effort: Effort = "normal", stop: Stop | None = None) -> Layout:
+def nest(
+    instance: str | Path,
+    out: str | Path,
+    effort: Effort = "normal",
+    stop: Stop | None = None,
+    progress: Progress | None = None,
+) -> Layout:
     """Nest a part list of any origin and write the layout as JSON.
 
     Parameters
@@ -163,10 +169,12 @@ def nest(instance: str | Path, out: str | Path, effort: Effort = "normal", stop:
         Iterations of the search.
     stop
         A time limit, or a way to interrupt: the best layout so far is written and marked.
+    progress
+        Told iterations done, iterations in all, sheets so far and their lower bound.
     """
     stop = stop or Stop()
     given = read_instance(Path(instance))
-    layout = nest_sheets(given.parts, given.stock, Search(effort, should_stop=stop))
+    layout = nest_sheets(given.parts, given.stock, Search(effort, progress, stop))
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
     replace_file(Path(out), layout_to_json(layout).encode())
     return layout

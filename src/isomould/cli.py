@@ -143,13 +143,24 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) ->
     stop = Stop(time_limit)
     signal.signal(signal.SIGINT, stop.interrupt)
     click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
-    layout = isomould.nest(instance, out, effort, stop)
+    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()))
     _say(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
         f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
     )
     if stop.interrupted:
         sys.exit(_INTERRUPTED)
+
+
+def _tell_sheets(told: set[int]) -> Callable[[int, int, int, int], None]:
+    """Give a progress that tells every number of sheets once."""
+
+    def tell(_: int, __: int, sheets: int, bound: int) -> None:
+        if sheets not in told:
+            told.add(sheets)
+            click.echo(f"{sheets} sheets, {sheets - bound} above the lower bound", err=True)
+
+    return tell
 
 
 @cli.command()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 from nesting_examples import GLASS, located, part_lists, racks, rows_of_trapezoids, trapezoid
 
 from isomould.errors import Refused
@@ -10,20 +11,34 @@ from isomould.nesting.checker import check_layout
 from isomould.nesting.files import layout_from_json, layout_to_json
 from isomould.nesting.layout import Part
 from isomould.nesting.nest import nest_blanks, nest_sheets
-from isomould.nesting.search import Search
+from isomould.nesting.search import Effort, Search
 from isomould.nesting.settings import SheetStock, StockSettings
 
 STOCK = StockSettings(sheets=(GLASS,), gap=5, trim=20)
 QUICK = Search("quick")
 
 
-@settings(max_examples=100, deadline=None)
-@given(part_lists(), racks())
-def test_every_layout_is_proved(parts: tuple[Part, ...], stock: StockSettings) -> None:
-    layout = nest_sheets(parts, stock, QUICK)
+def prove(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
+    layout = nest_sheets(parts, stock, Search(effort))
     assert check_layout(parts, stock, layout) == ()
     assert layout.bound <= len(layout.sheets)
+    assert layout.price_bound <= layout.price
     assert not layout.unplaced
+    assert set(layout.cut_trees) == {sheet.id for sheet in layout.sheets}
+
+
+@pytest.mark.slow
+@settings(max_examples=500, deadline=None)
+@given(part_lists(), racks(), st.sampled_from(["quick", "normal"]))
+def test_every_layout_is_proved(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
+    prove(parts, stock, effort)
+
+
+@pytest.mark.long
+@settings(max_examples=10_000, deadline=None)
+@given(part_lists(), racks(), st.sampled_from(["quick", "normal", "best"]))
+def test_very_many_layouts_are_proved(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
+    prove(parts, stock, effort)
 
 
 @settings(max_examples=50, deadline=None)

@@ -10,7 +10,7 @@ from nesting_examples import GLASS, located, rows_of_trapezoids, trapezoid
 
 from isomould.arrays import Floats
 from isomould.nesting.checker import check_layout
-from isomould.nesting.layout import Layout, Part, Placement, Sheet, Unplaced
+from isomould.nesting.layout import Layout, Offcut, Part, Placement, Sheet, Unplaced
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Search
 from isomould.nesting.settings import SheetStock, StockSettings
@@ -127,6 +127,15 @@ FAULTS: dict[str, tuple[Fault, str]] = {
     "no cuts": (lambda layout: replace(layout, cut_trees={}), "N-CUT-01"),
     "cut through parts": (flip_cut, "N-CUT-03"),
     "cut off its kerf": (shift_cuts, "N-CUT-03"),
+    "cuts without pieces": (
+        lambda layout: replace(layout, cut_trees={k: t | {"pieces": []} for k, t in layout.cut_trees.items()}),
+        "N-CUT-04",
+    ),
+    "offcut on a part": (lambda layout: replace(layout, offcut=Offcut("S001", 20, 20, 500, 500)), "N-OFFCUT-03"),
+    "offcut over the edge": (lambda layout: replace(layout, offcut=Offcut("S001", 0, 0, 5, 5)), "N-OFFCUT-02"),
+    "credited yield": (lambda layout: replace(layout, yield_with_offcut_percent=99.0), "N-OFFCUT-01"),
+    "price": (lambda layout: replace(layout, price=1.0), "N-AREA-04"),
+    "price bound too high": (lambda layout: replace(layout, price_bound=1.0), "N-AREA-04"),
     "cut tree of nothing": (lambda layout: replace(layout, cut_trees={"S001": {}}), "N-CUT-02"),
 }
 

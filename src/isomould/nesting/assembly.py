@@ -8,9 +8,10 @@ import numpy as np
 import shapely
 
 from isomould.arrays import Floats, Ints, read_only
+from isomould.nesting.bound import Bound, room_inside
 from isomould.nesting.layout import BLANK, CutTree, Id, Layout, Placement, Sheet, Unplaced
 from isomould.nesting.placing import Placed, Saw, map_tree, place
-from isomould.nesting.rack import PartClass, box, room_inside
+from isomould.nesting.rack import PartClass, box
 from isomould.nesting.settings import StockSettings
 from isomould.nesting.shapes import UM, round_away
 from isomould.nesting.sheets import SheetPlan
@@ -27,6 +28,7 @@ class Filled:
     height: float
     placed: tuple[tuple[Piece, Placed], ...]
     tree: CutTree
+    price: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,7 @@ def _stock_sheet(plan: SheetPlan, queues: Sequence[deque[Piece]], stock: StockSe
     sheet = stock.sheets[plan.frame.stock]
     room = room_inside(sheet.width, sheet.height, stock.trim)
     placed, tree = _moved(plan, stock, room.height if plan.frame.turned else room.width)
-    return Filled(sheet.name, sheet.width, sheet.height, _marked(placed, queues), tree)
+    return Filled(sheet.name, sheet.width, sheet.height, _marked(placed, queues), tree, sheet.price)
 
 
 def _blank(plan: SheetPlan, queues: Sequence[deque[Piece]], stock: StockSettings) -> Filled:
@@ -79,7 +81,7 @@ def _moved(plan: SheetPlan, stock: StockSettings, length: int) -> tuple[list[Pla
     return moved, map_tree(tree, lambda line: [[(x + trim) / UM, (y + trim) / UM] for x, y in line], 0)
 
 
-def make_layout(fillings: Sequence[Filling], bound: int, *, ended: bool) -> Layout:
+def make_layout(fillings: Sequence[Filling], bound: Bound, *, ended: bool) -> Layout:
     """Give the filled sheets their numbers and add up."""
     filled = [sheet for filling in fillings for sheet in filling.filled]
     digits = max(3, len(str(len(filled))))
@@ -92,8 +94,10 @@ def make_layout(fillings: Sequence[Filling], bound: int, *, ended: bool) -> Layo
         sheets=tuple(sheets),
         placements=tuple(placements),
         unplaced=left,
-        bound=bound,
-        bound_kind="area",
+        bound=bound.sheets,
+        bound_kind=bound.kind,
+        price_bound=bound.price,
+        price=sum(item.price for item in filled),
         yield_percent=yield_percent(sheets, placements),
         cut_trees=_number_trees(sheets, filled),
         status="incomplete" if left else "complete",

@@ -1,34 +1,93 @@
 """Lower bounds for the number of sheets that hold for any nesting, whatever its patterns."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Floats
-from isomould.nesting.settings import StockSettings
+from isomould.nesting.layout import BoundKind
+from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
+from isomould.nesting.shapes import UM, micrometres, round_away
 
 
-def area_bound(outlines: Sequence[Floats], stock: StockSettings) -> int:
-    """Bound the number of stock sheets by area, parts and sheets dilated by half the gap.
+@dataclass(frozen=True)
+class Bound:
+    """No nesting uses fewer sheets or costs less; kind "lp" where several sizes of sheets share the parts."""
+
+    sheets: int
+    price: float
+    kind: BoundKind
+
+
+def bound_stock(outlines: Sequence[Floats], stock: StockSettings) -> Bound:
+    """Bound the number and the price of the stock sheets for any nesting of outlines that have places in it.
 
     Parts that stand apart by the gap do not overlap when each grows by half of it, and stay in the sheet's
-    usable rectangle grown likewise. The largest sheets are counted first, as many as there are.
+    usable rectangle grown likewise: parts that fit some sizes only need enough area of those. The least whole
+    number of sheets that have it, none used more often than it is there, is a small integer programme.
     """
-    need = dilated_area(outlines, stock.gap)
-    sizes = [(sheet.width - 2 * stock.trim, sheet.height - 2 * stock.trim, sheet.quantity) for sheet in stock.sheets]
-    rooms = [(grown_rectangle(width, height, stock.gap), quantity) for width, height, quantity in sizes]
-    return _count(need, sorted(rooms, key=lambda room: -room[0]))
+    needs = _needs(outlines, stock)
+    if not needs:
+        return Bound(0, 0.0, "area")
+    kind: BoundKind = "area" if len(stock.sheets) == 1 else "lp"
+    count = _least(needs, stock, [1.0] * len(stock.sheets))
+    price = _least(needs, stock, [sheet.price for sheet in stock.sheets])
+    return Bound(math.ceil(count - 1e-6), price, kind)
 
 
-def _count(need: float, rooms: Iterable[tuple[float, int | None]]) -> int:
-    total = 0
-    for area, quantity in rooms:
-        wanted = sheets_for(need, area)
-        used = wanted if quantity is None else min(wanted, quantity)
-        total, need = total + used, need - used * area
-    return total
+def _needs(outlines: Sequence[Floats], stock: StockSettings) -> dict[tuple[bool, ...], float]:
+    """Give the dilated area of the outlines that fit just the same sizes, by those."""
+    groups = dict[tuple[bool, ...], list[Floats]]()
+    for outline in outlines:
+        groups.setdefault(tuple(fits(outline, sheet, stock) for sheet in stock.sheets), []).append(outline)
+    return {sizes: dilated_area(group, stock.gap) for sizes, group in groups.items()}
+
+
+def _least(needs: Mapping[tuple[bool, ...], float], stock: StockSettings, cost: Sequence[float]) -> float:
+    rooms = [room_of(sheet, stock) for sheet in stock.sheets]
+    rows = [[room if fit else 0.0 for room, fit in zip(rooms, sizes, strict=True)] for sizes in needs]
+    # What fits a few sizes only is also asked of every larger choice of sizes.
+    least = [sum(need for other, need in needs.items() if _within(other, sizes)) * (1 - 1e-9) for sizes in needs]
+    most = np.array([np.inf if sheet.quantity is None else float(sheet.quantity) for sheet in stock.sheets])
+    whole = np.ones(len(rooms), dtype=np.int64)
+    asked = LinearConstraint(np.array(rows), np.array(least), np.inf)
+    found = milp(np.array(cost), integrality=whole, bounds=Bounds(np.zeros(len(most)), most), constraints=asked)
+    return float(found.fun or 0.0)
+
+
+def _within(sizes: tuple[bool, ...], others: tuple[bool, ...]) -> bool:
+    return all(other or not one for one, other in zip(sizes, others, strict=True))
+
+
+def room_of(sheet: SheetStock, stock: StockSettings) -> float:
+    """Give the usable area of a sheet grown by half the gap."""
+    return grown_rectangle(sheet.width - 2 * stock.trim, sheet.height - 2 * stock.trim, stock.gap)
+
+
+def fits(outline: Floats, sheet: SheetStock, stock: StockSettings) -> bool:
+    """Tell whether an outline fits inside the trim of a sheet, in a rotation that is allowed there."""
+    room = room_inside(sheet.width, sheet.height, stock.trim)
+    width, height = np.ptp(micrometres(outline), axis=0)
+    upright = bool(width <= room.width and height <= room.height)
+    turned = bool(height <= room.width and width <= room.height)
+    return upright or (turned and 90 in allowed_rotations_deg(stock, sheet))
+
+
+@dataclass(frozen=True)
+class Room:
+    """The room of a sheet inside the trim, micrometres."""
+
+    width: int
+    height: int
+
+
+def room_inside(width: float, height: float, trim: float) -> Room:
+    """Give the room that a trim leaves, whole micrometres rounded down."""
+    return Room(*(int(np.floor((side - trim) * UM + 1e-6)) - round_away(trim * UM) for side in (width, height)))
 
 
 def sheets_for(need: float, area: float) -> int:

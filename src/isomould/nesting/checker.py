@@ -186,7 +186,7 @@ def _close_pairs(pieces: Any, gap: float) -> Iterator[tuple[int, int, float]]:
     yield from zip(one[short], other[short], np.where(overlap, -1.0, distance)[short], strict=True)
 
 
-def _check_areas(_: Sequence[Part], __: StockSettings, layout: Layout) -> Iterator[Finding]:
+def _check_areas(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
     sheet_area = sum(sheet.width * sheet.height for sheet in layout.sheets)
     part_area = sum(shapely.Polygon(item.points).area for item in layout.placements)
     percent = 100 * part_area / sheet_area if sheet_area else 0.0
@@ -194,6 +194,11 @@ def _check_areas(_: Sequence[Part], __: StockSettings, layout: Layout) -> Iterat
         yield Finding("N-AREA-01", "yield", f"{layout.yield_percent!r} %", f"{percent!r} %")
     if layout.bound > len(layout.sheets):
         yield Finding("N-AREA-02", "bound", f"{layout.bound}", f"at most {len(layout.sheets)} sheets used")
+    prices = {kind.name: kind.price for kind in stock.sheets}
+    price = sum(prices.get(sheet.stock, 0.0) for sheet in layout.sheets)
+    if abs(price - layout.price) > 1e-9 * max(price, 1.0) or layout.price_bound > price * (1 + 1e-9):
+        found = f"{layout.price!r}, at least {layout.price_bound!r}"
+        yield Finding("N-AREA-04", "price", found, f"{price!r}, and no less than its bound")
     largest = max((sheet.width * sheet.height for sheet in layout.sheets), default=0.0)
     if part_area > len(layout.sheets) * largest * (1 + 1e-12):
         yield Finding("N-AREA-03", "part area", f"{part_area:g} mm2", f"{len(layout.sheets)} sheets")

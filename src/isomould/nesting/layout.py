@@ -89,10 +89,11 @@ class Layout:
 
     Attributes
     ----------
-    bound
-        For any layout: no nesting of these parts uses fewer sheets.
-    pattern_bound
-        For layouts of the kind that was searched, measured on its grid; None if it was not computed.
+    bound, price_bound
+        No nesting of the placed parts, guillotine or not, uses fewer sheets, or costs less than that. Kind "area"
+        compares areas grown by half the gap, "lp" shares them out among several sizes in whole sheets.
+    price
+        Of all sheets.
     cut_trees
         Names for every sheet id the guillotine cuts in order; empty if the layout has none.
     cuts, cut_length
@@ -110,7 +111,8 @@ class Layout:
     cut_trees: dict[str, CutTree]
     status: Status = "complete"
     reproducible: bool = True
-    pattern_bound: int | None = None
+    price: float = 0.0
+    price_bound: float = 0.0
     cuts: int = 0
     cut_length: float = 0.0
     offcut: Offcut | None = None

@@ -6,7 +6,7 @@ import numpy as np
 
 from isomould.errors import Refused
 from isomould.nesting.assembly import Filling, fill_blanks, fill_stock, make_layout
-from isomould.nesting.bound import area_bound, dilated_area, grown_rectangle, sheets_for
+from isomould.nesting.bound import Bound, bound_stock, dilated_area, grown_rectangle, sheets_for
 from isomould.nesting.checker import check_layout
 from isomould.nesting.cover import fill_sheets
 from isomould.nesting.layout import Id, Layout, Part
@@ -46,8 +46,9 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
         find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else ([], True)
     )
     filling = fill_stock(plans, classes, stock)
-    placed = [item[1].points / 1e3 for sheet in filling.filled for item in sheet.placed]
-    return prove(parts, stock, make_layout([filling], area_bound(placed, stock), ended=ended))
+    outlines = {part.id: part.outline for part in parts}
+    placed = [outlines[item[0][0]] for sheet in filling.filled for item in sheet.placed]
+    return prove(parts, stock, make_layout([filling], bound_stock(placed, stock), ended=ended))
 
 
 def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:
@@ -65,7 +66,7 @@ def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:
     rows = _rows(parts)
     fillings = [_blanks(row, stock) for row in rows]
     bound = sum(_blank_bound(row, stock) for row in rows)
-    return prove(parts, stock, make_layout(fillings, bound, ended=True))
+    return prove(parts, stock, make_layout(fillings, Bound(bound, 0.0, "area"), ended=True))
 
 
 def _rows(parts: Sequence[Part]) -> list[list[Part]]:

@@ -8,7 +8,7 @@ import shapely
 
 from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
-from isomould.nesting.bound import area_bound
+from isomould.nesting.bound import Room, bound_stock, fits, room_inside
 from isomould.nesting.cover import PLENTY, Rack
 from isomould.nesting.layout import Id, Part
 from isomould.nesting.settings import SheetStock, StockSettings, Turning, allowed_rotations_deg
@@ -33,14 +33,6 @@ class PartClass:
 
     outline: Floats
     pieces: tuple[tuple[Id, str | None], ...]
-
-
-@dataclass(frozen=True)
-class Room:
-    """The room of a sheet inside the trim, micrometres."""
-
-    width: int
-    height: int
 
 
 @dataclass(frozen=True)
@@ -74,11 +66,6 @@ def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
     return given or (None,) * quantity
 
 
-def room_inside(width: float, height: float, trim: float) -> Room:
-    """Give the room that a trim leaves, whole micrometres rounded down."""
-    return Room(*(int(np.floor((side - trim) * UM + 1e-6)) - round_away(trim * UM) for side in (width, height)))
-
-
 def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
     """Set up every way to cut every stock sheet."""
     rooms = [room_inside(sheet.width, sheet.height, stock.trim) for sheet in stock.sheets]
@@ -92,7 +79,7 @@ def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
 def _goal(classes: Sequence[PartClass], stock: StockSettings) -> int:
     """Give the bound where fewer sheets are all that can be gained: with a single kind of sheet."""
     outlines = [kind.outline for kind in classes for _ in kind.pieces]
-    return area_bound(outlines, stock) if len(stock.sheets) == 1 else 0
+    return bound_stock(outlines, stock).sheets if len(stock.sheets) == 1 else 0
 
 
 def make_blank_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
@@ -174,7 +161,7 @@ def piece_counts(classes: Sequence[PartClass]) -> Ints:
 def refuse_oversize(parts: Sequence[Part], stock: StockSettings) -> None:
     """Refuse a part that fits no sheet in any rotation that is allowed there, with the size that it needs."""
     for part in parts:
-        if not any(_fits(part, sheet, stock) for sheet in stock.sheets):
+        if not any(fits(part.outline, sheet, stock) for sheet in stock.sheets):
             width, height = box(part.outline)
             found = f"needs {width + 2 * stock.trim:g} x {height + 2 * stock.trim:g} mm with the trim"
             limit = " or ".join(f"{sheet.width:g} x {sheet.height:g} mm ({sheet.name})" for sheet in stock.sheets)
@@ -185,11 +172,3 @@ def box(outline: Floats) -> tuple[float, float]:
     """Give the size of the bounding box, mm."""
     width, height = np.ptp(micrometres(outline), axis=0) / UM
     return float(width), float(height)
-
-
-def _fits(part: Part, sheet: SheetStock, stock: StockSettings) -> bool:
-    room = room_inside(sheet.width, sheet.height, stock.trim)
-    width, height = np.ptp(micrometres(part.outline), axis=0)
-    upright = bool(width <= room.width and height <= room.height)
-    turned = bool(height <= room.width and width <= room.height)
-    return upright or (turned and 90 in allowed_rotations_deg(stock, sheet))

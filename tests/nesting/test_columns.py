@@ -1,0 +1,103 @@
+"""Searches that generate columns: nested sheets for few classes, dives for many; bounds of several sizes."""
+
+import numpy as np
+import pytest
+from nesting_examples import GLASS, trapezoid
+
+from isomould.nesting.bound import bound_stock
+from isomould.nesting.checker import check_layout
+from isomould.nesting.cut_checker import replay
+from isomould.nesting.files import layout_to_json
+from isomould.nesting.layout import Part
+from isomould.nesting.nest import nest_sheets
+from isomould.nesting.patterns import stack_up
+from isomould.nesting.search import Search
+from isomould.nesting.settings import SheetStock, StockSettings
+
+SMALL = StockSettings(sheets=(SheetStock(name="s", width=3000, height=1500),), gap=8, kerf=3, trim=10)
+LARGE = StockSettings(sheets=(GLASS,), gap=5, trim=20)
+
+
+def dome(quantity: int = 12) -> list[Part]:
+    """Eight rings whose heights do not stack on a sheet."""
+    sizes = [(1500 - 130 * k, 1460 - 130 * k, 898 - 60 * k) for k in range(8)]
+    return [Part(f"P{k}", trapezoid(a, h, (a - b) / 2, (a - b) / 2), quantity) for k, (a, b, h) in enumerate(sizes)]
+
+
+def stadium() -> list[Part]:
+    """Three tall rows of thirty different panels, of which two strips leave much of a sheet."""
+    chance = np.random.default_rng(5)
+    sizes = [(h, a) for h in (1446, 1357, 1272) for a in chance.uniform(1000, 2200, 30)]
+    return [Part(k, trapezoid(a, h, 25, 25), 2) for k, (h, a) in enumerate(sizes)]
+
+
+@pytest.mark.parametrize(("parts", "stock"), [(dome(), SMALL), (stadium(), LARGE)], ids=["dome", "stadium"])
+def test_columns_better_the_first_filling_and_are_proved(parts: list[Part], stock: StockSettings) -> None:
+    quick, normal = (nest_sheets(parts, stock, Search(effort)) for effort in ("quick", "normal"))
+    assert check_layout(parts, stock, normal) == ()
+    assert len(quick.sheets) > len(normal.sheets) >= normal.bound
+
+
+def test_zones_turn_parts_by_a_quarter_beside_others_that_are_not() -> None:
+    layout = nest_sheets(dome(), SMALL, Search("normal"))
+    turns = {
+        sheet.id: {p.rotation_deg % 180 for p in layout.placements if p.sheet == sheet.id} for sheet in layout.sheets
+    }
+    assert {0, 90} in turns.values()
+
+
+def test_columns_are_reproducible() -> None:
+    one, other = (layout_to_json(nest_sheets(dome(8), SMALL, Search("normal"))) for _ in range(2))
+    assert one == other
+
+
+def test_stopped_columns_keep_a_whole_layout() -> None:
+    calls = iter(range(10**6))
+    layout = nest_sheets(stadium(), LARGE, Search("best", should_stop=lambda: next(calls) > 4))
+    assert (layout.status, layout.reproducible) == ("complete", False)
+
+
+def test_best_stack_of_heights_by_hand() -> None:
+    """Room 10: 4 + 6 is worth 5 + 8, two of 4 only 10, three of 3 (2 each) 6."""
+    stacks = stack_up(np.array([3, 4, 6]), np.array([[2.0], [5.0], [8.0]]), 10)
+    assert stacks.worth[-1, 0] == 13.0
+    assert sorted(stacks.trace(0)) == [1, 2]
+
+
+def test_part_that_fits_only_the_dear_size_bounds_price_and_number() -> None:
+    """Three long parts want a long sheet each, at 10, with 0.3 left over; nine square metres nine short ones at 1."""
+    long, short = (SheetStock(name=n, width=w, height=1000, price=p) for n, w, p in (("l", 3000, 10), ("s", 1000, 1)))
+    stock = StockSettings(sheets=(long, short), gap=0)
+    outlines = [trapezoid(3000, 900, 0, 0)] * 3 + [trapezoid(1000, 1000, 0, 0)] * 9
+    bound = bound_stock(outlines, stock)
+    assert (bound.sheets, bound.price, bound.kind) == (6, 39.0, "lp")
+
+
+def test_remnants_for_nothing_are_used_first() -> None:
+    new = SheetStock(name="new", width=3000, height=2000, price=100)
+    remnant = SheetStock(name="remnant", width=1000, height=1000, quantity=2)
+    stock = StockSettings(sheets=(new, remnant), gap=5)
+    layout = nest_sheets([Part("A", trapezoid(900, 900, 10, 10), 8)], stock, Search("normal"))
+    assert sorted(sheet.stock for sheet in layout.sheets) == ["new", "remnant", "remnant"]
+    assert (layout.price, layout.price_bound) == (100, 100)
+
+
+def test_offcut_above_the_strips_is_credited() -> None:
+    """One strip of 1000 on a sheet of 2000: what is above it and its cut of 6 is 2000 x 994."""
+    stock = StockSettings(sheets=(SheetStock(name="s", width=2000, height=2000),), gap=6, kerf=6, turning="half")
+    layout = nest_sheets([Part("A", trapezoid(997, 1000, 0, 0), 2)], stock)
+    offcut = layout.offcut
+    assert offcut is not None
+    assert (offcut.width, offcut.height) == (2000, 994)
+    assert layout.yield_with_offcut_percent == pytest.approx(100 * 2 * 0.997 / (4 - 2 * 0.994))
+    assert (layout.cuts, layout.cut_length) == (2, 3000)
+
+
+def test_slanted_cut_through_a_square_by_hand() -> None:
+    square = np.array([[0, 0], [100, 0], [100, 100], [0, 100.0]])
+    found = replay({"lines": [[[50, 0], [60, 100]]], "pieces": [{"placement": 0}, {}]}, square, 2.0)
+    left, right = (freed.piece for freed in found.freed)
+    slant = np.hypot(1, 0.1)
+    assert found.cuts == pytest.approx((100 * slant,))
+    assert left[:, 0].max() == pytest.approx(60 - slant)
+    assert right[:, 0].min() == pytest.approx(50 + slant)
