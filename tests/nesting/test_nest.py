@@ -29,9 +29,15 @@ def prove(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None
 
 @pytest.mark.slow
 @settings(max_examples=500, deadline=None)
-@given(part_lists(), racks(), st.sampled_from(["quick", "normal"]))
-def test_every_layout_is_proved(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
-    prove(parts, stock, effort)
+@given(part_lists(), racks())
+def test_every_layout_is_proved(parts: tuple[Part, ...], stock: StockSettings) -> None:
+    prove(parts, stock, "quick")
+
+
+@settings(max_examples=50, deadline=None)
+@given(part_lists(), racks())
+def test_every_layout_of_columns_is_proved(parts: tuple[Part, ...], stock: StockSettings) -> None:
+    prove(parts, stock, "normal")
 
 
 @pytest.mark.long

@@ -6,14 +6,15 @@ single columns would. The dive fixes the sheets that are used most, and generate
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cover import Rack, cost_of, fill_sheets, pieces_of
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
-from isomould.nesting.search import Effort, Search
+from isomould.nesting.patterns import bound_pattern
+from isomould.nesting.search import Effort, Found, Search
 from isomould.nesting.sheets import SheetPlan
 
 MOST = 2000
@@ -62,18 +63,19 @@ class _Use:
     amount: float
 
 
-def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
-    """Better a first filling, with stock without limits; give the sheets, and whether the search ran to its end."""
+def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> Found:
+    """Better a first filling, for stock without limits."""
     state = _Dive(rack, make_master(counts), rack.areas, np.random.default_rng(0))
     add_plans(state.master, first)
     best = first
     for done in range(ROUNDS[task.effort]):
         if task.stops or len(best) <= rack.goal:
-            return best, not task.stops
+            return Found(best, not task.stops)
         task.tell(done, ROUNDS[task.effort], len(best), rack.goal)
         _learn(state, solve(state.master, counts), done)
         best = min(best, _cover(state, counts), key=cost_of)
-    return _sink(state, counts, best, task)
+    bound = bound_pattern(rack, counts, state.worth, zones=False)
+    return replace(_sink(state, counts, best, task), pattern_bound=bound)
 
 
 def _learn(state: _Dive, solution: Solution, done: int) -> None:
@@ -96,21 +98,21 @@ def _shares(state: _Dive, counts: Ints) -> list[Ints]:
     return [np.bincount(pieces[k::chunks], minlength=len(counts)) for k in range(chunks)]
 
 
-def _sink(state: _Dive, left: Ints, best: list[SheetPlan], task: Search) -> tuple[list[SheetPlan], bool]:
+def _sink(state: _Dive, left: Ints, best: list[SheetPlan], task: Search) -> Found:
     """Fix sheets step by step until nothing is left or the best cannot be bettered any more."""
     fixed: list[SheetPlan] = []
     solution = solve(state.master, left)
     while left.any() and len(best) > state.rack.goal:
         new = _fix(state, solution, left)
         if task.stops or not new or _least(state.rack, fixed, solution) >= cost_of(best) - USED:
-            return best, not task.stops
+            return Found(best, not task.stops)
         task.tell(len(fixed), len(best), len(best), state.rack.goal)
         fixed, left = fixed + new, left - pieces_of(new, len(left))
         for _ in range(AGAIN):
             _learn(state, solution, done=1)
             best = min(best, fixed + _cover(state, left), key=cost_of)
             solution = solve(state.master, left)
-    return best, True
+    return Found(best, True)
 
 
 def _least(rack: Rack, fixed: list[SheetPlan], solution: Solution) -> float:

@@ -14,6 +14,7 @@ SCHEMA = 1
 _PLAIN = (
     "bound",
     "bound_kind",
+    "pattern_bound",
     "price",
     "price_bound",
     "yield_percent",
@@ -35,6 +36,7 @@ def layout_to_json(layout: Layout) -> str:
         "bound": layout.bound,
         "bound_kind": layout.bound_kind,
         "gap_to_bound": layout.gap_to_bound,
+        "pattern_bound": layout.pattern_bound,
         "price": layout.price,
         "price_bound": layout.price_bound,
         "yield_percent": layout.yield_percent,

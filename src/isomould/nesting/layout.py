@@ -92,6 +92,9 @@ class Layout:
     bound, price_bound
         No nesting of the placed parts, guillotine or not, uses fewer sheets, or costs less than that. Kind "area"
         compares areas grown by half the gap, "lp" shares them out among several sizes in whole sheets.
+    pattern_bound
+        No layout of strips and zones of the kind that the search makes, measured on its grid, costs less than that many
+        of the largest or dearest sheets; None if the search did not generate columns.
     price
         Of all sheets.
     cut_trees
@@ -111,6 +114,7 @@ class Layout:
     cut_trees: dict[str, CutTree]
     status: Status = "complete"
     reproducible: bool = True
+    pattern_bound: int | None = None
     price: float = 0.0
     price_bound: float = 0.0
     cuts: int = 0

@@ -1,6 +1,7 @@
 """Panels on sheets and in blanks. Every layout that leaves this room has been proved by `checker`."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,9 +22,11 @@ from isomould.nesting.rack import (
     refuse_oversize,
     sort_classes,
 )
-from isomould.nesting.search import Search
+from isomould.nesting.search import Found, Search
 from isomould.nesting.settings import StockSettings
 from isomould.nesting.shapes import micrometres
+
+NOTHING = Found([], ended=True)
 
 
 def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None = None) -> Layout:
@@ -42,13 +45,12 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     """
     refuse_oversize(parts, stock)
     classes = sort_classes(parts)
-    plans, ended = (
-        find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else ([], True)
-    )
-    filling = fill_stock(plans, classes, stock)
+    found = find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else NOTHING
+    filling = fill_stock(found.plans, classes, stock)
     outlines = {part.id: part.outline for part in parts}
     placed = [outlines[item[0][0]] for sheet in filling.filled for item in sheet.placed]
-    return prove(parts, stock, make_layout([filling], bound_stock(placed, stock), ended=ended))
+    layout = make_layout([filling], bound_stock(placed, stock), ended=found.ended)
+    return prove(parts, stock, replace(layout, pattern_bound=found.pattern_bound))
 
 
 def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:

@@ -6,6 +6,7 @@ so that it finds the best sheet for given worths of the pieces (Gilmore and Gomo
 whole numbers of the sheets that were found.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -15,7 +16,7 @@ from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cover import Rack, cost_of, pieces_of
-from isomould.nesting.search import Search
+from isomould.nesting.search import Found, Search
 from isomould.nesting.sheets import Frame, SheetPlan, Zone, take_once
 from isomould.nesting.strips import Priced, price, trace
 
@@ -84,12 +85,12 @@ def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
     return Stacks(heights, best, last)
 
 
-def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
-    """Better a first filling, with stock without limits; give the sheets, and whether the search ran to its end."""
+def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> Found:
+    """Better a first filling, for stock without limits."""
     plans, mean = first, np.zeros(0)
     for done in range(ROUNDS):
         if task.stops or len(first) <= rack.goal:
-            return first, not task.stops
+            return Found(first, not task.stops)
         task.tell(done, ROUNDS, len(first), rack.goal)
         worth = _worth(plans, counts)
         mean = (mean + worth) / 2 if len(mean) else worth
@@ -99,7 +100,7 @@ def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) 
         if not new:
             break
         plans = plans + new
-    return _whole(plans, counts, first), True
+    return Found(_whole(plans, counts, first), True, bound_pattern(rack, counts, _worth(plans, counts), zones=True))
 
 
 def _gaining(plans: Sequence[SheetPlan], worth: Floats) -> list[SheetPlan]:
@@ -180,12 +181,29 @@ def _sizes(room: int) -> Ints:
     return np.arange(room % coarse or coarse, room + 1, coarse)
 
 
-def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
-    """Give the best stack of runs and zones."""
+def _best_stack(frame: Frame, own: Priced, zones: _Zones) -> tuple[Stacks, Ints]:
+    """Stack runs and zones; the items of the stack are those of `own`, then the zones, in the order given beside."""
     heights = np.append(-(-(own.heights + frame.gap) // frame.step), zones.sizes)
     order = np.argsort(heights, kind="stable")
     worth = np.append(own.worth, zones.worth)[order]
-    found = order[stack_up(heights[order], worth[:, None], frame.room // frame.step).trace(0)].tolist()
-    runs = len(own.heights)
+    return stack_up(heights[order], worth[:, None], frame.room // frame.step), order
+
+
+def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
+    """Give the best stack of runs and zones."""
+    stacks, order = _best_stack(frame, own, zones)
+    found, runs = order[stacks.trace(0)].tolist(), len(own.heights)
     strips = [tuple(trace(own, k, frame.capacity)) if k < runs else zones.make(k - runs) for k in found]
     return SheetPlan(frame, tuple(strips))
+
+
+def bound_pattern(rack: Rack, counts: Ints, worth: Floats, *, zones: bool) -> int:
+    """Bound the cost of sheets that are stacks of strips, with zones or without, all measured on the grid (Farley).
+
+    Whatever pieces are worth: if no sheet holds more than its cost times v, all pieces together need their worth
+    divided by v.
+    """
+    priced = [price(f.kinds, counts, worth, f.capacity, all_lengths=zones) for f in rack.frames]
+    pairs = list(zip(rack.frames, priced, strict=True))
+    most = [float(_best_stack(f, own, _zones(f, pairs))[0].worth[-1, 0]) / f.cost for f, own in pairs]
+    return math.ceil(float(worth @ counts) / max(most) - 1e-6)

@@ -60,7 +60,16 @@ class Search:
             self.progress(done, total, sheets, bound)
 
 
-def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> tuple[list[SheetPlan], bool]:
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Sheets that were found, whether the search ran to its end, and a bound for sheets of their pattern."""
+
+    plans: list[SheetPlan]
+    ended: bool
+    pattern_bound: int | None = None
+
+
+def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> Found:
     """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
     total = round(ROUNDS[task.effort] * len(plans))
@@ -68,10 +77,10 @@ def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> t
         if len(plans) <= rack.goal:
             break
         if task.stops:
-            return plans, False
+            return Found(plans, ended=False)
         plans = _refill(rack, plans, counts, chance)
         task.tell(done + 1, total, len(plans), rack.goal)
-    return plans, True
+    return Found(plans, ended=True)
 
 
 def first_sheets(rack: Rack, counts: Ints, task: Search) -> list[SheetPlan]:
