@@ -16,7 +16,7 @@ from isomould.nesting.sheets import SheetPlan
 
 Effort = Literal["quick", "normal", "best"]
 
-ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 3, "best": 12}
+ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 2, "best": 8}
 """Re-fillings per sheet."""
 
 CHUNK = 700
