@@ -17,7 +17,7 @@ def write_schedules(folder: Path, delivery: Delivery) -> None:
     facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
     summary = make_summary(facts, tables)
     checks = build_checks(design.kit, delivery.solids, cutting.sheets)
-    words = Words(design.project.project, design.notes, delivery.cost.results)
+    words = Words(design.project.project, design.notes, delivery.cost.results, delivery.logo)
     write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), words)
 
 

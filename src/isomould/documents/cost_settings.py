@@ -33,6 +33,7 @@ class CostSettings(Settings):
     hole: Rate = _rate("/piece", "Bore or hole of a node")
     node_set_up: Rate = _rate("/class", "Setting up for a node class")
     node_run: Rate = _rate("/piece", "Running one node")
+    node_run_torsion: Rate = _rate("/piece", "Running one node with torsion, of other mesh families")
     slot: Rate = _rate("/piece", "Slot of a node")
     facet: Rate = _rate("/piece", "Facet of a node")
     weld: Rate = _rate("/m", "Weld between members and nodes")

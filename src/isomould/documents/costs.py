@@ -14,20 +14,25 @@ GROUPS = ("Material", "Fabrication", "Hardware", "Assembly", "Transport", "Erect
 
 @dataclass(frozen=True)
 class Price:
-    """A stock size and its price; None where nobody gave one."""
+    """A stock size and its price, None where nobody gave one; `size` in m² of a sheet, m of a bar."""
 
     name: str
     price: float | None
+    size: float
 
 
 @dataclass(frozen=True)
 class Pricing:
-    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³)."""
+    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³).
+
+    `repetition` says that mesh families are priced too, which have nodes with torsion.
+    """
 
     rates: CostSettings
     sheets: tuple[Price, ...]
     bars: tuple[Price, ...]
     node_density: float
+    repetition: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,11 +94,16 @@ def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
         Rates and stock prices.
     """
     by_name = {table.name: table for table in tables}
-    rates = {rate.code: rate for rate in _rates(pricing)}
+    rates = make_rates(pricing)
     lines = _line_table([*_lines(by_name, rates, pricing)])
-    rate_table = _rate_table(tuple(rates.values()))
+    rate_table = make_rate_table(rates)
     results = _results(by_name, rates, rate_table, lines, pricing.rates.currency)
     return Cost(rate_table, lines, results, next(r for r in results if r.name == "total_cost").live.value)
+
+
+def make_rates(pricing: Pricing) -> dict[str, Rate]:
+    """Give all input cells by their codes."""
+    return {rate.code: rate for rate in _rates(pricing)}
 
 
 def _rates(pricing: Pricing) -> Iterator[Rate]:
@@ -104,14 +114,19 @@ def _rates(pricing: Pricing) -> Iterator[Rate]:
             yield Rate(f"{kind}_{k}", f"Stock {kind}: {price.name}", f"{currency}/{kind}", price.price)
     for code, field in CostSettings.model_fields.items():
         if code != "currency" and code not in _needless(pricing):
-            yield Rate(code, field.description or code, _unit(field, currency), getattr(pricing.rates, code))
+            yield Rate(code, field.description or code, _unit(field, currency), _initial(code, pricing.rates))
+
+
+def _initial(code: str, rates: CostSettings) -> float | None:
+    """Give the value of a rate; a node with torsion costs what another one costs, where nobody says more."""
+    return getattr(rates, code) if code != "node_run_torsion" else rates.node_run_torsion or rates.node_run
 
 
 def _needless(pricing: Pricing) -> frozenset[str]:
-    """Rates of material by mass and area, where stock is bought."""
+    """Rates of material by mass and area, where stock is bought; of torsion, where no mesh has any."""
     panels = ("glass", "waste_panels") if pricing.sheets else ()
     members = ("steel", "waste_members") if pricing.bars else ()
-    return frozenset((*panels, *members))
+    return frozenset((*panels, *members, *(() if pricing.repetition else ("node_run_torsion",))))
 
 
 def _unit(field: object, currency: str) -> str:
@@ -174,12 +189,13 @@ def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, st
     )
 
 
-def _rate_table(rates: Sequence[Rate]) -> Table:
+def make_rate_table(rates: Mapping[str, Rate]) -> Table:
+    """Make the table "rates"."""
     data = {
-        "code": [rate.code for rate in rates],
-        "description": [rate.description for rate in rates],
-        "unit": [rate.unit for rate in rates],
-        "value": [rate.value for rate in rates],
+        "code": [*rates],
+        "description": [rate.description for rate in rates.values()],
+        "unit": [rate.unit for rate in rates.values()],
+        "value": [rate.value for rate in rates.values()],
     }
     return make_live_table("rates", data)
 

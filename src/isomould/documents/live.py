@@ -24,6 +24,9 @@ class Live:
     def __add__(self, other: "Live") -> "Joint":
         return Joint("+", self, other)
 
+    def __sub__(self, other: "Live") -> "Joint":
+        return Joint("-", self, other)
+
     def __mul__(self, other: "Live") -> "Joint":
         return Joint("*", self, other)
 

@@ -63,9 +63,12 @@ def _column_options(table: Table, column: Column) -> dict[str, object]:
 
 def write_column(page: Page, index: int, column: Column) -> None:
     """Write header, values and total of a column."""
-    style = page.style(num_format=number_format(column))
+    wrap = {"text_wrap": True} if column.kind == "text" else {}
+    style = page.style(num_format=number_format(column), valign="top", **wrap)
     align = "left" if column.kind in {"text", "yes_no"} else "right"
-    write_cell(page, (0, index), column.header, page.style(bold=True, bottom=1, align=align))
+    write_cell(
+        page, (0, index), column.header, page.style(bold=True, bottom=1, align=align, valign="top", text_wrap=True)
+    )
     found = zip(cells(page.table, column) or [None], cell_formulas(page.table, column), strict=True)
     for row, (cell, formula) in enumerate(found, start=1):
         write_cell(page, (row, index), cell, style, formula)

@@ -1,0 +1,86 @@
+"""How a sheet looks and prints: column widths, wrapped headers, pages wide enough to read."""
+
+import math
+import re
+
+from isomould.documents.columns import Column
+from isomould.documents.info import ProjectInfo
+from isomould.documents.table import Table, cells
+from isomould.documents.title_block import heading
+from isomould.writers.formulas import number_format
+from isomould.writers.xlsx_page import Page
+
+_A3 = 8
+_WIDEST_PX = 400
+_CHARACTER_PX, _PADDING_PX, _FILTER_PX = 7, 9, 16
+_NARROWEST, _WIDEST = 5, 34
+"""Characters in a column; longer texts are wrapped."""
+_PAGE_PX = 2400
+"""What one A3 page holds of cells of 11 pt, printed at 62 %: just below 7 pt."""
+_LINE_PT = 15
+_HEADER_TEXT = 60
+
+
+def set_up_print(page: Page, info: ProjectInfo) -> None:
+    """Print landscape on A3 with header, footer, and the first row and column on every page."""
+    sheet = page.sheet
+    sheet.set_landscape()
+    sheet.set_paper(_A3)
+    sheet.set_margins(left=0.4, right=0.4, top=0.7, bottom=0.6)
+    sheet.repeat_rows(0)
+    sheet.set_header(f"&L{_header_text(heading(info))}&R&A")
+    sheet.set_footer(f"&L{_header_text(info.client)}&RPage &P of &N")
+    sheet.fit_to_pages(1, 0)
+
+
+def fit_columns(page: Page) -> None:
+    """Make columns as wide as their cells, wrap what is longer, and print as many pages wide as can be read."""
+    widths = [_width(page.table, column) for column in page.table.columns]
+    for index, width in enumerate(widths):
+        page.sheet.set_column_pixels(index, index, _pixels(width))
+    lines = [_lines(column.header, width) for column, width in zip(page.table.columns, widths, strict=True)]
+    page.sheet.set_row(0, _LINE_PT * max(lines, default=1))
+    pages = math.ceil(sum(map(_pixels, widths)) / _PAGE_PX)
+    page.sheet.fit_to_pages(pages, 0)
+    if pages > 1:
+        page.sheet.repeat_columns(0)
+
+
+def fit_texts(page: Page) -> None:
+    """Make the columns of a sheet with texts below its table as wide as these."""
+    page.sheet.autofit(_WIDEST_PX)
+
+
+def _pixels(width: int) -> int:
+    return _CHARACTER_PX * width + _PADDING_PX
+
+
+def _width(table: Table, column: Column) -> int:
+    """Characters that a column needs: its longest cell, the longest word of its header and the filter button."""
+    words = max(map(len, column.header.split())) + _FILTER_PX // _CHARACTER_PX
+    longest = max((len(_shown(cell, column)) for cell in cells(table, column)), default=0)
+    total = len(_shown(float(table.frame[column.name].sum()), column)) if column.total else 0
+    return min(_WIDEST, max(_NARROWEST, words, longest, total))
+
+
+def _shown(cell: object, column: Column) -> str:
+    """Give a cell about as Excel shows it; thousands are parted where the format says so."""
+    if isinstance(cell, bool) or not isinstance(cell, int | float):
+        return {True: "yes", False: "no", None: ""}.get(cell, str(cell))  # pyright: ignore[reportArgumentType, reportCallIssue]
+    style = number_format(column)
+    if style == "General" or "E" in style:
+        return f"{cell:.6g}"
+    return f"{cell:{',' if ',' in style else ''}.{len(style.partition('.')[2])}f}"
+
+
+def _lines(header: str, width: int) -> int:
+    """Lines that a header takes when it is wrapped at its spaces."""
+    rows, room = 1, 0
+    for word in re.split(r"\s+", header):
+        rows, room = (rows, room + len(word) + 1) if room + len(word) < width else (rows + 1, len(word) + 1)
+    return rows
+
+
+def _header_text(text: str) -> str:
+    """Cut user text for a page header, where & starts a code and 255 characters are the limit."""
+    return text[:_HEADER_TEXT].replace("&", "&&")
