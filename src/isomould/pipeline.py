@@ -28,6 +28,7 @@ from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
 from isomould.writers.manifest import MANIFEST, Scope, write_manifest
+from isomould.writers.parquet import require_parquet
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
@@ -120,6 +121,8 @@ def _design(loaded: LoadedProject, run: Run) -> tuple[dict[str, Design], Table |
         found, limit = "a project of several shapes", "a project of one shape"
         way_out = "Build without --previous: the marks of the kit belong to all shapes."
         raise Refused("E-SHAPE-PREVIOUS", "--previous", found, limit, way_out)
+    if loaded.project.deliver.parquet:
+        require_parquet()
     run.report("curves, surface, parts")
     designs = make_designs(loaded)
     return designs, kit_table(designs) if loaded.shapes else None

@@ -120,8 +120,8 @@ def test_title_block_stands_on_the_cover_and_notes_on_the_summary_as_text(live):
 
 def test_the_cover_shows_what_failed(live, values):
     rows = {row[0].value: row[1] for row in values["Cover"].iter_rows(max_col=2)}
-    assert (rows["Checks"].value, rows["Panels"].value, rows["Panel instances"].value) == ("fail", 2, 4)
-    assert live["Cover"][rows["Checks"].coordinate].value == '=IF(failed_checks=0,"pass","fail")'
+    assert (rows["All checks"].value, rows["Panels"].value, rows["Panel instances"].value) == ("fail", 2, 4)
+    assert live["Cover"][rows["All checks"].coordinate].value == '=IF(failed_checks=0,"pass","fail")'
     (rule,) = [rule for found in live["Cover"].conditional_formatting for rule in found.rules]
     assert rule.formula == ['"fail"']
 

@@ -106,8 +106,20 @@ _RECONCILED: tuple[tuple[str, str, Side, Side, float], ...] = (
         lambda tables: total(tables, "members.quantity") * Given(2.0),
         0.0,
     ),
-    ("Parts on sheets = panels", "sheets panel_instances", _sum("sheets.parts"), _count("panel_instances.location"), 0.0),
-    ("Pieces on bars = members", "bars member_instances", _sum("bars.pieces"), _count("member_instances.location"), 0.0),
+    (
+        "Parts on sheets = panels",
+        "sheets panel_instances",
+        _sum("sheets.parts"),
+        _count("panel_instances.location"),
+        0.0,
+    ),
+    (
+        "Pieces on bars = members",
+        "bars member_instances",
+        _sum("bars.pieces"),
+        _count("member_instances.location"),
+        0.0,
+    ),
     (
         "Area on sheets = panel area (m²)",
         "sheets panels",
@@ -123,7 +135,13 @@ _RECONCILED: tuple[tuple[str, str, Side, Side, float], ...] = (
         _AREA_LIMIT,
     ),
     ("Mass transported = mass of parts (t)", f"cost {_PARTS}", _line("transport", "quantity"), _masses, _MASS_LIMIT),
-    ("Price of sheets = their lines of the cost", "cost sheets", _sum("sheets.price"), _stock_lines("sheet_"), _MONEY_LIMIT),
+    (
+        "Price of sheets = their lines of the cost",
+        "cost sheets",
+        _sum("sheets.price"),
+        _stock_lines("sheet_"),
+        _MONEY_LIMIT,
+    ),
     ("Price of bars = their lines of the cost", "cost bars", _sum("bars.price"), _stock_lines("bar_"), _MONEY_LIMIT),
     ("Sub-totals = lines of the cost", "cost", _groups, _sum("cost.amount"), _MONEY_LIMIT),
 )

@@ -111,10 +111,13 @@ def _figures(results: Sequence[Result], failed: int | None) -> Figures:
 
 
 def _write_summary(page: Page, totals: Sequence[Total], notes: Sequence[Note]) -> None:
-    """Make the totals live, wherever they stand, and repeat the notes below."""
+    """Make the totals live, wherever they stand, show counts as such, and repeat the notes below."""
     by_item = {total.item: total for total in totals}
-    for row, item in enumerate(cells(page.table, page.table.columns[0]), start=1):
-        if total := by_item.get(str(item)):
-            write_cell(page, (row, 1), total.value, None, formula(total, page.table))
+    counts, measures = page.style(num_format="#,##0", align="right"), page.style(num_format="#,##0.000", align="right")
+    items, values = (cells(page.table, column) for column in page.table.columns[:2])
+    for row, (item, value) in enumerate(zip(items, values, strict=True), start=1):
+        total = by_item.get(str(item))
+        style = counts if isinstance(value, int | float) and float(value).is_integer() else measures
+        write_cell(page, (row, 1), value, style, formula(total, page.table) if total else None)
     rows = [(note.code, note.field, note.text) for note in notes]
     write_texts(page, (page.below, 0), [("Notes",), *rows] if rows else [])

@@ -18,11 +18,12 @@ def write_reconciliations(page: Page, tables: Sequence[Table]) -> int:
     """Write the sums that must agree under the columns of the checks, turn what fails red, and count it."""
     status = [column.name for column in page.table.columns].index("status")
     write_texts(page, (page.below, 0), [("Id", "Reconciliation", "Found", "Expected")])
+    figure = page.style(num_format="#,##0.000")
     failed, row = cells(page.table, page.table.columns[status]).count("fail"), page.below
     for row, check in enumerate(reconcile(tables), start=page.below + 1):
         write_texts(page, (row, 0), [(f"R{row - page.below}", check.what)])
-        write_cell(page, (row, 2), check.found.value, None, formula(check.found, page.table))
-        write_cell(page, (row, 3), check.expected.value, None, formula(check.expected, page.table))
+        for column, side in enumerate((check.found, check.expected), start=2):
+            write_cell(page, (row, column), side.value, figure, formula(side, page.table))
         write_cell(page, (row, status), check.status, None, status_formula(check, page.table))
         failed += check.status == "fail"
     failing = {"type": "cell", "criteria": "==", "value": '"fail"', "format": page.style(**RED)}

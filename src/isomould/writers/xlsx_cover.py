@@ -80,7 +80,7 @@ def _key_figures(pages: Sequence[Page]) -> list[tuple[str, float, str]]:
 
 
 def _write_status(cover: Page, row: int, failed: int) -> None:
-    write_cell(cover, (row, 0), "Checks")
+    write_cell(cover, (row, 0), "All checks")
     word = "pass" if failed == 0 else "fail"
     write_cell(cover, (row, 1), word, cover.style(bold=True), f'=IF({FAILED}=0,"pass","fail")')
     failing = {"type": "cell", "criteria": "==", "value": '"fail"', "format": cover.style(**RED)}

@@ -15,6 +15,8 @@ _WIDEST_PX = 400
 _CHARACTER_PX, _PADDING_PX, _FILTER_PX = 7, 9, 16
 _NARROWEST, _WIDEST = 5, 34
 """Characters in a column; longer texts are wrapped."""
+_FIGURE = 15
+"""Characters of a figure below a table."""
 _PAGE_PX = 2400
 """What one A3 page holds of cells of 11 pt, printed at 62 %: just below 7 pt."""
 _LINE_PT = 15
@@ -47,8 +49,11 @@ def fit_columns(page: Page) -> None:
 
 
 def fit_texts(page: Page) -> None:
-    """Make the columns of a sheet with texts below its table as wide as these."""
+    """Make the columns of a sheet with texts below its table as wide as these, and those of numbers for the figures."""
     page.sheet.autofit(_WIDEST_PX)
+    for index, column in enumerate(page.table.columns):
+        if column.kind != "text":
+            page.sheet.set_column_pixels(index, index, _pixels(max(_FIGURE, _width(page.table, column))))
 
 
 def _pixels(width: int) -> int:
@@ -60,7 +65,8 @@ def _width(table: Table, column: Column) -> int:
     words = max(map(len, column.header.split())) + _FILTER_PX // _CHARACTER_PX
     longest = max((len(_shown(cell, column)) for cell in cells(table, column)), default=0)
     total = len(_shown(float(table.frame[column.name].sum()), column)) if column.total else 0
-    return min(_WIDEST, max(_NARROWEST, words, longest, total))
+    room = 1 if column.kind in {"text", "yes_no"} else 0  # the indent
+    return min(_WIDEST, max(_NARROWEST, words, longest + room, total))
 
 
 def _shown(cell: object, column: Column) -> str:
