@@ -1,13 +1,11 @@
 """Sums that must agree across the schedules: computed here, written as live formulas that turn red."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import reduce
-from operator import add
 from typing import Literal
 
 from isomould.documents.costs import GROUPS
-from isomould.documents.live import Given, Live
+from isomould.documents.live import Given, Live, add_up
 from isomould.documents.quantities import Tables, count, products, sum_if, total
 from isomould.documents.table import Table, cells
 
@@ -78,8 +76,8 @@ def _masses(tables: Tables) -> Live:
     return _added(parts) / Given(1000.0)
 
 
-def _added(values: list[Live]) -> Live:
-    return reduce(add, values) if values else Given(0.0)
+def _added(values: Sequence[Live]) -> Live:
+    return add_up(values) if values else Given(0.0)
 
 
 _PARTS = "nodes members panels"

@@ -2,11 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import reduce
-from operator import add
 
 from isomould.documents.costs import Pricing, Rate
-from isomould.documents.live import Given, Here, Live
+from isomould.documents.live import Given, Here, Live, add_up
 from isomould.documents.table import Table, make_live_table
 
 WORKS = (
@@ -116,7 +114,7 @@ def _material(here: Mapping[str, Live], rates: Mapping[str, Rate], pricing: Pric
 
 def _sums(works: Mapping[str, Live], area: Live, rates: Mapping[str, Rate]) -> dict[str, Live]:
     """Sum of the works, overhead and margin on it, both together, and that per m² of panels."""
-    total = reduce(add, (_here(name, works[name]) for name in WORKS))
+    total = add_up([_here(name, works[name]) for name in WORKS])
     rest = (_raised_by(rates["overhead"]) * _raised_by(rates["margin"]) - Given(1.0)) * _here("works_cost", total)
     full = _here("works_cost", total) + _here("surcharge_cost", rest)
     per_area = _here("full_cost", full) / area

@@ -5,7 +5,7 @@ import re
 
 from isomould.documents.columns import Column
 from isomould.documents.info import ProjectInfo
-from isomould.documents.table import Table, cells
+from isomould.documents.table import Cell, Table, cells
 from isomould.documents.title_block import heading
 from isomould.writers.formulas import number_format
 from isomould.writers.xlsx_page import Page
@@ -17,8 +17,8 @@ _NARROWEST, _WIDEST = 5, 34
 """Characters in a column; longer texts are wrapped."""
 _FIGURE = 15
 """Characters of a figure below a table."""
-_PAGE_PX = 2400
-"""What one A3 page holds of cells of 11 pt, printed at 62 %: just below 7 pt."""
+_PAGE_PX = 2100
+"""What one A3 page holds of cells of 11 pt, printed at 70 % or a little less: above 7 pt."""
 _LINE_PT = 15
 _HEADER_TEXT = 60
 
@@ -45,7 +45,7 @@ def fit_columns(page: Page) -> None:
     pages = math.ceil(sum(map(_pixels, widths)) / _PAGE_PX)
     page.sheet.fit_to_pages(pages, 0)
     if pages > 1:
-        page.sheet.repeat_columns(0)
+        page.sheet.repeat_columns("A:A")
 
 
 def fit_texts(page: Page) -> None:
@@ -63,10 +63,17 @@ def _pixels(width: int) -> int:
 def _width(table: Table, column: Column) -> int:
     """Characters that a column needs: its longest cell, the longest word of its header and the filter button."""
     words = max(map(len, column.header.split())) + _FILTER_PX // _CHARACTER_PX
-    longest = max((len(_shown(cell, column)) for cell in cells(table, column)), default=0)
+    longest = max((len(_shown(cell, column)) for cell in _extremes(table, column)), default=0)
     total = len(_shown(float(table.frame[column.name].sum()), column)) if column.total else 0
     room = 1 if column.kind in {"text", "yes_no"} else 0  # the indent
     return min(_WIDEST, max(_NARROWEST, words, longest + room, total))
+
+
+def _extremes(table: Table, column: Column) -> list[Cell]:
+    """Give the cells that may be longest: of numbers the least and the greatest."""
+    filled = [cell for cell in cells(table, column) if cell is not None]
+    numbers = [cell for cell in filled if isinstance(cell, int | float)]
+    return [min(numbers), max(numbers)] if len(numbers) == len(filled) and numbers else filled
 
 
 def _shown(cell: object, column: Column) -> str:

@@ -1,5 +1,9 @@
 """Charts of the price of repetition: what each mesh family costs, and how many classes it has."""
 
+from typing import cast
+
+from xlsxwriter.chart_column import ChartColumn
+
 from isomould.documents.repetition import WORKS
 from isomould.writers.xlsx_page import Page
 
@@ -16,7 +20,8 @@ def draw_repetition(page: Page) -> None:
 
 
 def _draw(page: Page, kind: str, columns: tuple[str, ...], title: str, rows: int) -> None:
-    chart = page.book.add_chart({"type": "column", "subtype": kind} if kind == "stacked" else {"type": "column"})
+    options = {"type": "column", "subtype": kind} if kind == "stacked" else {"type": "column"}
+    chart = cast("ChartColumn", page.book.add_chart(options))
     names = [column.name for column in page.table.columns]
     last, sheet = len(page.table.frame), page.table.title
     for name in columns:
