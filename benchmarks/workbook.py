@@ -41,7 +41,7 @@ def deliver(rail: int, arc: int) -> Delivery:
     solids = make_solids(design.kit.nodes, design.kit.drum, design.project.nodes.slot_end)
     section = design.project.members.section.name
     cutting = nest_kit(design.kit, section, design.project.stock, Search("quick"), one_by_one)
-    return Delivery(design, solids, cutting)
+    return Delivery(design, solids, {}, cutting)
 
 
 def sheets_of(delivery: Delivery) -> tuple[Table, ...]:

@@ -6,10 +6,10 @@ from pathlib import Path
 import openpyxl
 import pytest
 from linked import refreshed, write_office_book
-from recalculate import needs_libreoffice
 
 import isomould
 from museum import SMALL, changed, write_project
+from recalculate import needs_libreoffice
 
 PAGE = Path(__file__).parents[2] / "docs" / "workbook.md"
 

@@ -22,6 +22,7 @@ class CostSettings(Settings):
     currency: Annotated[Text, Field(min_length=1)] = "EUR"
     steel: Rate = _rate("/kg", "Steel of members, where no bars are in stock")
     node_steel: Rate = _rate("/kg", "Round bar that nodes are turned from")
+    base_steel: Rate = _rate("/kg", "Base plates and stems of supports")
     glass: Rate = _rate("/m²", "Panels by charged area, where no sheets are in stock")
     waste_members: Rate = _rate("%", "Waste on steel of members, where no bars are in stock")
     waste_panels: Rate = _rate("%", "Waste on panels, where no sheets are in stock")

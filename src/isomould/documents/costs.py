@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from isomould.documents.cost_settings import CostSettings
-from isomould.documents.live import Given, Here, Live, NamedCell, RateCell
+from isomould.documents.live import Given, Here, Live, NamedCell, RateCell, add_up
 from isomould.documents.quantities import Blanks, Tables, count, matches, products, sum_if, total
 from isomould.documents.table import Table, make_live_table
 
@@ -156,13 +156,16 @@ def _material(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> It
     volume = [products(tables, "nodes.quantity", name) for name in ("volume_cm3", "removed_volume_cm3")]
     blanks = (volume[0] + volume[1]) * Given(pricing.node_density) / Given(1e6)
     yield Line("node_steel", "Material", "Round bar for nodes", "kg", blanks, rates["node_steel"])
+    bases = products(tables, "nodes.quantity", "base_mass_kg")
+    yield Line("base_steel", "Material", "Base plates and stems of supports", "kg", bases, rates["base_steel"])
 
 
 def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, str, str, Live], ...]:
     """Code, group, description, unit and quantity of everything that is done."""
     pieces = {name: total(tables, f"{name}.quantity") for name in ("nodes", "members", "panels")}
     classes = {name: count(tables, f"{name}.mark") for name in ("nodes", "members", "panels")}
-    each = {name: products(tables, "nodes.quantity", name) for name in ("slots", "facets", "holes", "weld_length_mm")}
+    taken = ("slots", "facets", "holes", "base_holes", "weld_length_mm")
+    each = {name: products(tables, "nodes.quantity", name) for name in taken}
     coated = [products(tables, f"{name}.quantity", "coated_area_m2") for name in ("nodes", "members")]
     masses = [total(tables, f"{name}.total_mass_kg") for name in ("nodes", "members", "panels")]
     hours = [pieces[f"{name}s"] * rates[f"hours_{name}"].cell for name in ("node", "member", "panel")]
@@ -177,12 +180,12 @@ def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, st
         ("node_run", "Fabrication", "Nodes", "pieces", pieces["nodes"]),
         ("slot", "Fabrication", "Slots of nodes", "pieces", each["slots"]),
         ("facet", "Fabrication", "Facets of nodes", "pieces", each["facets"]),
-        ("hole", "Fabrication", "Bores and holes of nodes", "pieces", each["holes"]),
+        ("hole", "Fabrication", "Bores and holes of nodes and bases", "pieces", each["holes"] + each["base_holes"]),
         ("weld", "Fabrication", "Welds", "m", each["weld_length_mm"] / thousand),
         ("coating", "Fabrication", "Coated area of nodes and members", "m²", coated[0] + coated[1]),
         ("hardware", "Hardware", "Bolts, washers and small parts", "nodes", pieces["nodes"]),
-        ("assembly", "Assembly", "Hours in the shop", "h", hours[0] + hours[1] + hours[2]),
-        ("transport", "Transport", "Mass of all parts", "t", (masses[0] + masses[1] + masses[2]) / thousand),
+        ("assembly", "Assembly", "Hours in the shop", "h", add_up(hours)),
+        ("transport", "Transport", "Mass of all parts", "t", add_up(masses) / thousand),
         ("erect_node", "Erection", "Nodes", "pieces", pieces["nodes"]),
         ("erect_member", "Erection", "Members", "pieces", pieces["members"]),
         ("erect_panel", "Erection", "Panels", "pieces", pieces["panels"]),

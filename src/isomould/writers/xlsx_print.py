@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Sequence
 
 from isomould.documents.columns import Column
 from isomould.documents.info import ProjectInfo
@@ -69,7 +70,7 @@ def _width(table: Table, column: Column) -> int:
     return min(_WIDEST, max(_NARROWEST, words, longest + room, total))
 
 
-def _extremes(table: Table, column: Column) -> list[Cell]:
+def _extremes(table: Table, column: Column) -> Sequence[Cell]:
     """Give the cells that may be longest: of numbers the least and the greatest."""
     filled = [cell for cell in cells(table, column) if cell is not None]
     numbers = [cell for cell in filled if isinstance(cell, int | float)]
