@@ -44,6 +44,7 @@ class CostSettings(Settings):
     hours_member: Rate = _rate("h/member", "Hours to assemble a member")
     hours_panel: Rate = _rate("h/panel", "Hours to assemble a panel")
     assembly: Rate = _rate("/h", "Assembly in the shop")
+    handling: Rate = _rate("/piece", "Handling and packing a part")
     transport: Rate = _rate("/t", "Transport by mass")
     erect_node: Rate = _rate("/node", "Erecting a node")
     erect_member: Rate = _rate("/member", "Erecting a member")

@@ -97,7 +97,8 @@ def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
     rates = make_rates(pricing)
     lines = _line_table([*_lines(by_name, rates, pricing)])
     rate_table = make_rate_table(rates)
-    results = _results(by_name, rates, rate_table, lines, pricing.rates.currency)
+    waste = tuple(_stock_waste(by_name, pricing))
+    results = (*_results(by_name, rates, rate_table, lines, pricing.rates.currency), *waste)
     return Cost(rate_table, lines, results, next(r for r in results if r.name == "total_cost").live.value)
 
 
@@ -185,6 +186,7 @@ def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, st
         ("coating", "Fabrication", "Coated area of nodes and members", "m²", coated[0] + coated[1]),
         ("hardware", "Hardware", "Bolts, washers and small parts", "nodes", pieces["nodes"]),
         ("assembly", "Assembly", "Hours in the shop", "h", add_up(hours)),
+        ("handling", "Transport", "Parts handled and packed", "pieces", add_up([*pieces.values()])),
         ("transport", "Transport", "Mass of all parts", "t", add_up(masses) / thousand),
         ("erect_node", "Erection", "Nodes", "pieces", pieces["nodes"]),
         ("erect_member", "Erection", "Members", "pieces", pieces["members"]),
@@ -249,6 +251,22 @@ def _results(
         Result("A further node class", currency, further, "cost_per_node_class"),
         Result("Rates that are blank and count as nothing", "", blanks, "blank_rates"),
     )
+
+
+def _stock_waste(tables: Tables, pricing: Pricing) -> Iterator[Result]:
+    """Show what of the stock is waste; it was paid for with the stock and is multiplied nowhere."""
+    all_of = Given(1.0)
+    if pricing.sheets and "sheets" in tables:
+        used = total(tables, "sheets.part_area_m2") / _bought(tables, "sheets.stock", pricing.sheets)
+        yield Result("Waste of sheets, in their price", "%", (all_of - used) * Given(100.0))
+    if pricing.bars and "bars" in tables:
+        left = total(tables, "bars.offcut_mm") / Given(1000.0) / _bought(tables, "bars.stock", pricing.bars)
+        yield Result("Offcuts of bars, in their price", "%", left * Given(100.0))
+
+
+def _bought(tables: Tables, path: str, prices: Sequence[Price]) -> Live:
+    """Area (m²) or length (m) of the stock that is used up."""
+    return add_up([matches(tables, path, price.name) * Given(price.size) for price in prices])
 
 
 def _named(result: Result) -> NamedCell:
