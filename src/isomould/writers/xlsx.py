@@ -22,7 +22,7 @@ from isomould.writers.formulas import formula
 from isomould.writers.xlsx_checks import write_reconciliations
 from isomould.writers.xlsx_costs import write_rates, write_results
 from isomould.writers.xlsx_cover import Figures, cover_table, write_cover
-from isomould.writers.xlsx_page import Page, add_table, write_cell, write_column, write_texts
+from isomould.writers.xlsx_page import TEXTS_BELOW, Page, add_table, write_cell, write_column, write_texts
 from isomould.writers.xlsx_print import fit_columns, fit_texts, set_up_print
 from isomould.writers.xlsx_repetition import draw_repetition
 
@@ -83,12 +83,9 @@ def _render(tables: Sequence[Table], words: Words) -> bytes:
         for page in (cover, *pages):
             set_up_print(page, words.info)
         for page in pages:
-            fit_texts(page) if page.table.name in _TEXTS_BELOW else fit_columns(page)
+            fit_texts(page) if page.table.name in TEXTS_BELOW else fit_columns(page)
         write_cover(cover, pages, words.info, words.logo, _figures(words.results, failed))
     return buffer.getvalue()
-
-
-_TEXTS_BELOW = {"summary", "rates", "cost", "checks"}
 
 
 def _write_extras(pages: Sequence[Page], words: Words) -> int | None:

@@ -17,7 +17,9 @@ FAILED = "failed_checks"
 def write_reconciliations(page: Page, tables: Sequence[Table]) -> int:
     """Write the sums that must agree under the columns of the checks, turn what fails red, and count it."""
     status = [column.name for column in page.table.columns].index("status")
-    write_texts(page, (page.below, 0), [("Id", "Reconciliation", "Found", "Expected")])
+    write_texts(page, (page.below, 0), [("Id", "Reconciliation")])
+    for column, side in enumerate(("Found", "Expected"), start=2):
+        write_cell(page, (page.below, column), side, page.style(align="right"))
     figure = page.style(num_format="#,##0.000")
     failed, row = cells(page.table, page.table.columns[status]).count("fail"), page.below
     for row, check in enumerate(reconcile(tables), start=page.below + 1):
