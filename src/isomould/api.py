@@ -24,10 +24,12 @@ from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
+from isomould.nesting.settings import StockSettings
 from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder, schedule_folder
-from isomould.project.load import load_project, read_tables
+from isomould.project.load import LoadedProject, load_project, read_tables
 from isomould.project.schema import MAIN, Project
+from isomould.repetition import is_priced, make_pricing, price_families
 from isomould.study import Study, make_study
 from isomould.templates import copy_template
 from isomould.verify import Certificate, verify_folder
@@ -195,18 +197,28 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
     loaded = load_project(Path(project), changes)
     compared = compare_families(make_design(loaded.project, loaded.folder))
     if out is not None:
-        replace_file(Path(out), _families_bytes(Path(out), compared, loaded.project))
+        replace_file(Path(out), _families_bytes(Path(out), compared, loaded))
     return compared
 
 
-def _families_bytes(out: Path, compared: tuple[Compared, ...], project: Project) -> bytes:
+def _priced(compared: tuple[Compared, ...], project: Project) -> tuple[Table, ...]:
+    """Give rates and the price of repetition, if the project has rates."""
+    if not is_priced(project):
+        return ()
+    pricing = replace(make_pricing(project, project.stock or StockSettings()), repetition=True)
+    return price_families(compared, project, pricing)
+
+
+def _families_bytes(out: Path, compared: tuple[Compared, ...], loaded: LoadedProject) -> bytes:
     """Write a comparison in the format that the file's name asks for."""
     table = families_table(compared)
     match out.suffix.lower():
         case ".csv":
             return csv_text(table).encode()
         case ".xlsx":
-            return workbook_bytes((table,), Words(project.project))
+            return workbook_bytes(
+                (table, *_priced(compared, loaded.project)), Words(loaded.project.project, logo=loaded.logo)
+            )
         case _:
             way_out = "Write --out families.csv or --out families.xlsx."
             raise Refused("E-COMPARE-FILE", "--out", str(out), "a file that ends in .csv or .xlsx", way_out)

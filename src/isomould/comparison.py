@@ -15,15 +15,18 @@ from isomould.form.settings import GeneratrixDivide, Kind, RailDivide, SurfaceSe
 from isomould.measure.families import translation, triangulated
 from isomould.measure.report import Measured, measure_mesh
 from isomould.measure.smooth import Smooth
+from isomould.measure.take_off import TakeOff, take_off
+from isomould.parts.arms import find_arms
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A mesh family, measured; or why the design has no such mesh."""
+    """A mesh family, measured and taken off; or why the design has no such mesh."""
 
     family: str
     measured: Measured | None
     reason: str
+    taken: TakeOff | None = None
 
 
 def compare_families(design: Design) -> tuple[Compared, ...]:
@@ -103,7 +106,7 @@ def _measured(family: str, make: Callable[[], Mesh], smooth: Smooth, design: Des
     except Refused as refused:
         return Compared(family, None, str(refused))
     depth, tolerance = design.project.members.section.depth, kit_settings(design.project).tolerance
-    return Compared(family, measure_mesh(mesh, smooth, depth, tolerance), "")
+    return Compared(family, measure_mesh(mesh, smooth, depth, tolerance), "", take_off(mesh, find_arms(mesh)))
 
 
 def _moulding(design: Design, kind: Kind) -> Mesh:

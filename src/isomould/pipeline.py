@@ -13,6 +13,7 @@ from isomould.delivery.model import write_record
 from isomould.delivery.schedules import write_schedules
 from isomould.design import Design, kit_settings
 from isomould.documents.table import Table
+from isomould.documents.title_block import Logo
 from isomould.errors import CertificateFailed, Refused
 from isomould.family import kit_table, make_designs
 from isomould.nesting.search import Effort, Search
@@ -27,6 +28,7 @@ from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
 from isomould.writers.manifest import MANIFEST, Scope, write_manifest
+from isomould.writers.parquet import require_parquet
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
@@ -85,10 +87,10 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
         designs, kit = _design(loaded, run)
         for name in list(designs)[1:]:
-            shape = _compute(designs[name], None, run, spread)
+            shape = _compute(designs[name], None, loaded.logo, run, spread)
             write_delivery(folder / "shapes" / name, shape, spread)
             _certify(folder / "shapes" / name, loaded, run, spread)
-        delivery = _compute(designs[MAIN], kit, run, spread)
+        delivery = _compute(designs[MAIN], kit, loaded.logo, run, spread)
         run.report("schedules, drawings, models")
         write_delivery(folder, delivery, spread)
         certificate = _certify(folder, loaded, run, spread)
@@ -105,7 +107,7 @@ def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
     """
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
         designs, kit = _design(loaded, run)
-        delivery = _compute(designs[MAIN], kit, run, spread)
+        delivery = _compute(designs[MAIN], kit, loaded.logo, run, spread)
         run.report("schedules")
         write_record(folder / "model", delivery)
         write_schedules(folder, delivery)
@@ -119,12 +121,14 @@ def _design(loaded: LoadedProject, run: Run) -> tuple[dict[str, Design], Table |
         found, limit = "a project of several shapes", "a project of one shape"
         way_out = "Build without --previous: the marks of the kit belong to all shapes."
         raise Refused("E-SHAPE-PREVIOUS", "--previous", found, limit, way_out)
+    if loaded.project.deliver.parquet:
+        require_parquet()
     run.report("curves, surface, parts")
     designs = make_designs(loaded)
     return designs, kit_table(designs) if loaded.shapes else None
 
 
-def _compute(design: Design, kit: Table | None, run: Run, spread: Spread) -> Delivery:
+def _compute(design: Design, kit: Table | None, logo: Logo | None, run: Run, spread: Spread) -> Delivery:
     """Compute everything that is to be written of one shape."""
     project, report = design.project, run.report
     former = read_former(run.previous) if run.previous else None
@@ -136,7 +140,7 @@ def _compute(design: Design, kit: Table | None, run: Run, spread: Spread) -> Del
     refuse_clashes(design.kit, settings, bodies)
     report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
     cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
-    return Delivery(design, solids, bodies, cutting, former, kit)
+    return Delivery(design, solids, bodies, cutting, former, kit, logo)
 
 
 def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scope: Scope = "delivery") -> Certificate:
@@ -159,7 +163,7 @@ def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scop
 
 
 def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
-    """Give the project file and the drawings that it names, by name."""
+    """Give the project file, and the drawings and the logo that it names, by name."""
     projects = (loaded.project, *(project for _, project in loaded.shapes))
     curves = [curve for project in projects for curve in (project.rail.curve, project.generatrix.curve)]
     drawings = {
@@ -167,7 +171,8 @@ def read_inputs(loaded: LoadedProject) -> dict[str, bytes]:
         for curve in curves
         if isinstance(curve, DxfSettings | RhinoSettings)
     }
-    return {"project.toml": loaded.source, **drawings}
+    logo = {loaded.project.project.logo: loaded.logo.content} if loaded.logo else {}
+    return {"project.toml": loaded.source, **drawings, **logo}
 
 
 def read_previous(folder: Path | None) -> dict[str, bytes]:

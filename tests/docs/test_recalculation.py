@@ -4,24 +4,41 @@ import csv
 
 import openpyxl
 import pytest
+
+import isomould
+from museum import SMALL, TEMPLATES, write_project
 from recalculate import needs_libreoffice, recalculate, with_cell
+
+
+def assert_same(ours, theirs):
+    """Compare every formula's stored value with the one that LibreOffice computes; give their number."""
+    formulas = openpyxl.load_workbook(ours)
+    stored, found = (openpyxl.load_workbook(book, data_only=True) for book in (ours, theirs))
+    cells = [cell for sheet in formulas for row in sheet.iter_rows() for cell in row if cell.data_type == "f"]
+    for cell in cells:
+        value, other = (book[cell.parent.title][cell.coordinate].value for book in (stored, found))
+        assert other == (pytest.approx(value, rel=1e-12) if isinstance(value, float | int) else value), cell
+    return len(cells)
 
 
 @pytest.mark.slow
 @needs_libreoffice
 def test_every_stored_value_comes_back(built_folder, tmp_path):
-    (book,) = recalculate([built_folder / "schedules.xlsx"], tmp_path)
-    ours, theirs = (openpyxl.load_workbook(path, data_only=True) for path in (built_folder / "schedules.xlsx", book))
-    formulas = openpyxl.load_workbook(built_folder / "schedules.xlsx")
-    compared = 0
-    for sheet in formulas:
-        for row in sheet.iter_rows():
-            for cell in row:
-                if cell.data_type == "f":
-                    stored, found = (book[sheet.title][cell.coordinate].value for book in (ours, theirs))
-                    assert found == (pytest.approx(stored, rel=1e-12) if isinstance(stored, float | int) else stored)
-                    compared += 1
-    assert compared > 50
+    families = tmp_path / "families.xlsx"
+    isomould.compare(write_project(tmp_path / "small.toml", SMALL), out=families)
+    books = [built_folder / "schedules.xlsx", families]
+    counts = list(map(assert_same, books, recalculate(books, tmp_path)))
+    assert counts[0] > 100
+    assert counts[1] == 5 * 14
+
+
+@pytest.mark.long
+@needs_libreoffice
+@pytest.mark.parametrize("name", sorted(path.stem for path in TEMPLATES.glob("*.toml")))
+def test_every_stored_value_of_a_template_comes_back(name, tmp_path):
+    run = isomould.Run(effort="quick", jobs=1)
+    book = isomould.schedule(TEMPLATES / f"{name}.toml", tmp_path / "out", run=run).folder / "schedules.xlsx"
+    assert assert_same(book, *recalculate([book], tmp_path)) > 100
 
 
 def read(folder, name):

@@ -1,6 +1,7 @@
 from isomould.documents.columns import columns
+from isomould.documents.reconciliations import reconcile
 from isomould.documents.table import Table, cells, make_table
-from isomould.documents.totals import column_totals, make_summary, reconcile
+from isomould.documents.totals import column_totals, make_summary
 
 
 def sheets(parts):

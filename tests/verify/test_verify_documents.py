@@ -380,6 +380,7 @@ FORMULAS = [
     ("=COUNTA(A1:B3)", 4),
     ("=AND(A1=1,B1=2)", True),
     ("=SUMPRODUCT(A1:A2,B1:B2)", 14),
+    ("=SUMPRODUCT(A2:A3,B1:B2)", 6),
     ("=A9+1", 1),
     ('=IF(ABS(SUM(A1:A2)-4)<=1e-06,"pass","fail")', "pass"),
 ]

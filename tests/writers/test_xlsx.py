@@ -30,8 +30,8 @@ def values(path):
     return openpyxl.load_workbook(io.BytesIO(path.read_bytes()), data_only=True)
 
 
-def test_summary_is_first_and_checks_are_last(live):
-    assert live.sheetnames[0] == "Summary"
+def test_cover_and_summary_are_first_and_checks_are_last(live):
+    assert live.sheetnames[:2] == ["Cover", "Summary"]
     assert live.sheetnames[-1] == "Checks"
 
 
@@ -83,12 +83,12 @@ def formulas(book):
 
 def test_only_our_cells_are_formulas_and_user_text_is_none(live, values):
     found = formulas(live)
-    assert {sheet for sheet, _ in found} == {"Summary", "Panels", "Bars", "Checks"}
-    assert all(
-        text.startswith(("=SUM(", "=SUBTOTAL(109,tbl", "=tbl", "=COUNTA(", "=IF(ABS(")) for text in found.values()
-    )
+    assert {sheet for sheet, _ in found} == {"Cover", "Summary", "Panels", "Bars", "Checks"}
+    ours = ("=SUM(", "=SUMPRODUCT(tbl", "=SUBTOTAL(109,tbl", "=tbl", "=COUNTA(", "=IF(", "=COUNTIF(")
+    assert all(text.startswith(ours) for text in found.values())
     assert all(values[sheet][at].value is not None for sheet, at in found)
-    assert not any(cell.hyperlink for sheet in live for row in sheet for cell in row)
+    linked = {cell.hyperlink.location for sheet in live for row in sheet for cell in row if cell.hyperlink}
+    assert linked == {f"'{name}'!A1" if " " in name else f"{name}!A1" for name in live.sheetnames[1:]}
 
 
 def test_totals_are_live_and_carry_their_values(live, values):
@@ -109,9 +109,21 @@ def test_summary_totals_the_tables(live, values):
     assert rows["Greatest deviation"].value == 12.3456
 
 
-def test_notes_and_title_block_stand_on_the_summary_as_text(live):
-    texts = [cell.value for row in live["Summary"] for cell in row if cell.data_type == "s"]
-    assert {"=7", "@client", "2026-03-01", "W-RAIL-03", NOTES[0].text} <= set(texts)
+def texts(sheet):
+    return {cell.value for row in sheet for cell in row if cell.data_type == "s"}
+
+
+def test_title_block_stands_on_the_cover_and_notes_on_the_summary_as_text(live):
+    assert {"A & B 5 Tower", "=7", "@client", "2026-03-01"} <= texts(live["Cover"])
+    assert {"W-RAIL-03", NOTES[0].text} <= texts(live["Summary"])
+
+
+def test_the_cover_shows_what_failed(live, values):
+    rows = {row[0].value: row[1] for row in values["Cover"].iter_rows(max_col=2)}
+    assert (rows["All checks"].value, rows["Panels"].value, rows["Panel instances"].value) == ("fail", 2, 4)
+    assert live["Cover"][rows["All checks"].coordinate].value == '=IF(failed_checks=0,"pass","fail")'
+    (rule,) = [rule for found in live["Cover"].conditional_formatting for rule in found.rules]
+    assert rule.formula == ['"fail"']
 
 
 def test_reconciliation_is_live_and_failures_turn_red(live, values):
@@ -121,7 +133,12 @@ def test_reconciliation_is_live_and_failures_turn_red(live, values):
     formula = live["Checks"][row[7].coordinate].value
     assert formula.startswith("=IF(ABS(SUM(tblPanels[Quantity])-COUNTA(tblPanelInstances[Location]))")
     rules = [rule for found in live["Checks"].conditional_formatting for rule in found.rules]
-    assert [rule.formula for rule in rules] == [['"fail"']]
+    assert [rule.formula for rule in rules] == [['"fail"'], ["0"]]
+    assert values["Checks"][failed_checks(live)].value == 1
+
+
+def failed_checks(book):
+    return book.defined_names["failed_checks"].value.replace("$", "").rpartition("!")[2]
 
 
 def test_texts_longer_than_excel_holds_are_refused(tables, tmp_path):

@@ -4,27 +4,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from isomould.comparison import compare_families, families_table
+from isomould.comparison import Compared, compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
-from isomould.documents.costs import Cost, Price, Pricing, make_cost
+from isomould.documents.costs import Cost, Pricing, make_cost
 from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
-from isomould.documents.stock_tables import bar_name, bar_table, sheet_table
+from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table
-from isomould.nesting.settings import BarStock, SheetStock, StockSettings
+from isomould.documents.title_block import Logo
 from isomould.parts.plates import Shape
 from isomould.parts.solid import Solid
 from isomould.parts.strips import Strip, unroll_strips
-from isomould.project.schema import Project
+from isomould.repetition import make_pricing, price_families
 
 
 @dataclass(frozen=True, eq=False)
 class Delivery:
     """Everything that is written: the design, its node solids, the surfaces of all parts by mark, its layouts.
 
-    `former` is the delivery that it revises, `kit` the nodes that other shapes share with it.
+    `former` is the delivery that it revises, `kit` the nodes that other shapes share with it, `logo`
+    stands on the cover.
     """
 
     design: Design
@@ -33,6 +34,7 @@ class Delivery:
     cutting: Cutting
     former: Former | None = None
     kit: Table | None = None
+    logo: Logo | None = None
 
     @cached_property
     def schedules(self) -> tuple[Table, ...]:
@@ -40,31 +42,33 @@ class Delivery:
         return make_schedules(self)
 
     @cached_property
+    def compared(self) -> tuple[Compared, ...]:
+        """The surface as every mesh family, where the project asks for it."""
+        return compare_families(self.design) if self.design.project.deliver.compare else ()
+
+    @cached_property
+    def pricing(self) -> Pricing:
+        """What the cost needs to know beside the schedules."""
+        return make_pricing(self.design.project, self.cutting.stock)
+
+    @cached_property
     def cost(self) -> Cost:
         """The schedules, priced."""
-        return make_cost(self.schedules, _pricing(self.design.project, self.cutting.stock))
+        return make_cost(self.schedules, self.pricing)
 
     @cached_property
     def tables(self) -> tuple[Table, ...]:
         """All tables; summary and checks apart."""
-        return (self.cost.rates, self.cost.lines, *self.schedules)
+        families = (
+            price_families(self.compared, self.design.project, self.pricing)[1:] if self.pricing.repetition else ()
+        )
+        return (self.cost.rates, self.cost.lines, *self.schedules, *families)
 
     @cached_property
     def strips(self) -> tuple[Strip, ...]:
         """The strips that the project asks for, unrolled."""
         mesh, asked = self.design.kit.mesh, self.design.project.deliver.strips
         return tuple(strip for along in asked for strip in unroll_strips(mesh, along))
-
-
-def _pricing(project: Project, stock: StockSettings) -> Pricing:
-    """Gather rates and the prices of what is in stock."""
-    sheets = tuple(Price(sheet.name, _given(sheet)) for sheet in stock.sheets)
-    bars = tuple(Price(bar_name(bar.section, bar.length), _given(bar)) for bar in stock.bars)
-    return Pricing(project.costs, sheets, bars, project.nodes.density)
-
-
-def _given(stock: SheetStock | BarStock) -> float | None:
-    return stock.price if "price" in stock.model_fields_set else None
 
 
 def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
@@ -78,5 +82,5 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
     revision = (revision_table(tables, delivery.former),) if delivery.former else ()
     kit = (delivery.kit,) if delivery.kit else ()
-    families = (families_table(compare_families(design)),) if design.project.deliver.compare else ()
+    families = (families_table(delivery.compared),) if delivery.compared else ()
     return (*tables, sheets, *bars, *strips, *revision, *kit, *families)

@@ -6,18 +6,21 @@ from isomould.delivery.goods import Delivery
 from isomould.documents.overview import build_checks, kit_facts, layout_facts
 from isomould.documents.totals import make_summary
 from isomould.writers.csv import write_csv
+from isomould.writers.parquet import write_parquet
 from isomould.writers.xlsx import Words, write_workbook
 
 
 def write_schedules(folder: Path, delivery: Delivery) -> None:
-    """Write every table as CSV, and the workbook."""
+    """Write every table as CSV, as Parquet if asked for, and the workbook."""
     design, cutting, tables = delivery.design, delivery.cutting, delivery.tables
     for table in tables:
         write_csv(folder / "tables" / f"{table.name}.csv", table)
+        if design.project.deliver.parquet:
+            write_parquet(folder / "tables" / f"{table.name}.parquet", table)
     facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
     summary = make_summary(facts, tables)
     checks = build_checks(design.kit, delivery.solids, cutting.sheets)
-    words = Words(design.project.project, design.notes, delivery.cost.results)
+    words = Words(design.project.project, design.notes, delivery.cost.results, delivery.logo)
     write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), words)
 
 

@@ -56,6 +56,11 @@ TABLES: dict[str, tuple[str, ...]] = {
             member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
             planarity_mm conical_deg circular_deg cone_spread_deg mismatch_mm torsion_deg deviation_mm
             horizontal_parallels reason""",
+        "repetition": """family nodes_count node_classes twisted_nodes_count members_count member_classes panels_count
+            panel_classes member_length_mm panel_area_m2 charged_area_m2 contour_length_mm node_set_up_cost
+            node_run_cost member_set_up_cost member_run_cost panel_set_up_cost panel_run_cost member_material_cost
+            panel_material_cost assembly_cost erection_cost works_cost surcharge_cost full_cost square_metre_cost
+            currency""",
         "revision": "mark part status quantity_before quantity replaces",
         "rates": "code description unit value",
         "cost": "code group description unit quantity waste_percent rate amount",
@@ -70,16 +75,16 @@ UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m2": "m²", "cm3": "cm³", "perce
 _DECIMALS = {"mm": 3, "deg": 4, "kg": 3, "m2": 12, "cm3": 3, "percent": 3}
 _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
     **dict.fromkeys(("axis_x", "axis_y", "axis_z", "ref_x", "ref_y", "ref_z"), 9),
-    **dict.fromkeys(("price",), 2),
-    **dict.fromkeys(("value", "rate", "amount"), 12),
+    **dict.fromkeys(("value", "rate", "amount", "price"), 12),
+    **dict.fromkeys((name for name in TABLES["repetition"] if name.endswith("_cost")), 12),
     **dict.fromkeys(("worst", "limit"), None),
     **dict.fromkeys(("aspect",), 3),
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
     """quantity quantity_before valence slots facets holes base_holes i j first_corner parts cuts pieces count
-    parallels generatrices nodes_count node_classes interior_node_classes members_count member_classes panels_count
-    panel_classes horizontal_parallels""".split()  # noqa: SIM905
+    parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes members_count
+    member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
 """In the cost a quantity is whatever is paid for, not a number of pieces."""

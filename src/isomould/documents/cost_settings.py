@@ -22,6 +22,7 @@ class CostSettings(Settings):
     currency: Annotated[Text, Field(min_length=1)] = "EUR"
     steel: Rate = _rate("/kg", "Steel of members, where no bars are in stock")
     node_steel: Rate = _rate("/kg", "Round bar that nodes are turned from")
+    base_steel: Rate = _rate("/kg", "Base plates and stems of supports")
     glass: Rate = _rate("/m²", "Panels by charged area, where no sheets are in stock")
     waste_members: Rate = _rate("%", "Waste on steel of members, where no bars are in stock")
     waste_panels: Rate = _rate("%", "Waste on panels, where no sheets are in stock")
@@ -33,6 +34,7 @@ class CostSettings(Settings):
     hole: Rate = _rate("/piece", "Bore or hole of a node")
     node_set_up: Rate = _rate("/class", "Setting up for a node class")
     node_run: Rate = _rate("/piece", "Running one node")
+    node_run_torsion: Rate = _rate("/piece", "Running one node with torsion, of other mesh families")
     slot: Rate = _rate("/piece", "Slot of a node")
     facet: Rate = _rate("/piece", "Facet of a node")
     weld: Rate = _rate("/m", "Weld between members and nodes")
@@ -42,6 +44,7 @@ class CostSettings(Settings):
     hours_member: Rate = _rate("h/member", "Hours to assemble a member")
     hours_panel: Rate = _rate("h/panel", "Hours to assemble a panel")
     assembly: Rate = _rate("/h", "Assembly in the shop")
+    handling: Rate = _rate("/piece", "Handling and packing a part")
     transport: Rate = _rate("/t", "Transport by mass")
     erect_node: Rate = _rate("/node", "Erecting a node")
     erect_member: Rate = _rate("/member", "Erecting a member")

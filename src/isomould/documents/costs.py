@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from isomould.documents.cost_settings import CostSettings
-from isomould.documents.live import Given, Here, Live, NamedCell, RateCell
+from isomould.documents.live import Given, Here, Live, NamedCell, RateCell, add_up
 from isomould.documents.quantities import Blanks, Tables, count, matches, products, sum_if, total
 from isomould.documents.table import Table, make_live_table
 
@@ -14,20 +14,25 @@ GROUPS = ("Material", "Fabrication", "Hardware", "Assembly", "Transport", "Erect
 
 @dataclass(frozen=True)
 class Price:
-    """A stock size and its price; None where nobody gave one."""
+    """A stock size and its price, None where nobody gave one; `size` in m² of a sheet, m of a bar."""
 
     name: str
     price: float | None
+    size: float
 
 
 @dataclass(frozen=True)
 class Pricing:
-    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³)."""
+    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³).
+
+    `repetition` says that mesh families are priced too, which have nodes with torsion.
+    """
 
     rates: CostSettings
     sheets: tuple[Price, ...]
     bars: tuple[Price, ...]
     node_density: float
+    repetition: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,11 +94,17 @@ def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
         Rates and stock prices.
     """
     by_name = {table.name: table for table in tables}
-    rates = {rate.code: rate for rate in _rates(pricing)}
+    rates = make_rates(pricing)
     lines = _line_table([*_lines(by_name, rates, pricing)])
-    rate_table = _rate_table(tuple(rates.values()))
-    results = _results(by_name, rates, rate_table, lines, pricing.rates.currency)
+    rate_table = make_rate_table(rates)
+    waste = tuple(_stock_waste(by_name, pricing))
+    results = (*_results(by_name, rates, rate_table, lines, pricing.rates.currency), *waste)
     return Cost(rate_table, lines, results, next(r for r in results if r.name == "total_cost").live.value)
+
+
+def make_rates(pricing: Pricing) -> dict[str, Rate]:
+    """Give all input cells by their codes."""
+    return {rate.code: rate for rate in _rates(pricing)}
 
 
 def _rates(pricing: Pricing) -> Iterator[Rate]:
@@ -104,14 +115,19 @@ def _rates(pricing: Pricing) -> Iterator[Rate]:
             yield Rate(f"{kind}_{k}", f"Stock {kind}: {price.name}", f"{currency}/{kind}", price.price)
     for code, field in CostSettings.model_fields.items():
         if code != "currency" and code not in _needless(pricing):
-            yield Rate(code, field.description or code, _unit(field, currency), getattr(pricing.rates, code))
+            yield Rate(code, field.description or code, _unit(field, currency), _initial(code, pricing.rates))
+
+
+def _initial(code: str, rates: CostSettings) -> float | None:
+    """Give the value of a rate; a node with torsion costs what another one costs, where nobody says more."""
+    return getattr(rates, code) if code != "node_run_torsion" else rates.node_run_torsion or rates.node_run
 
 
 def _needless(pricing: Pricing) -> frozenset[str]:
-    """Rates of material by mass and area, where stock is bought."""
+    """Rates of material by mass and area, where stock is bought; of torsion, where no mesh has any."""
     panels = ("glass", "waste_panels") if pricing.sheets else ()
     members = ("steel", "waste_members") if pricing.bars else ()
-    return frozenset((*panels, *members))
+    return frozenset((*panels, *members, *(() if pricing.repetition else ("node_run_torsion",))))
 
 
 def _unit(field: object, currency: str) -> str:
@@ -141,13 +157,16 @@ def _material(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> It
     volume = [products(tables, "nodes.quantity", name) for name in ("volume_cm3", "removed_volume_cm3")]
     blanks = (volume[0] + volume[1]) * Given(pricing.node_density) / Given(1e6)
     yield Line("node_steel", "Material", "Round bar for nodes", "kg", blanks, rates["node_steel"])
+    bases = products(tables, "nodes.quantity", "base_mass_kg")
+    yield Line("base_steel", "Material", "Base plates and stems of supports", "kg", bases, rates["base_steel"])
 
 
 def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, str, str, Live], ...]:
     """Code, group, description, unit and quantity of everything that is done."""
     pieces = {name: total(tables, f"{name}.quantity") for name in ("nodes", "members", "panels")}
     classes = {name: count(tables, f"{name}.mark") for name in ("nodes", "members", "panels")}
-    each = {name: products(tables, "nodes.quantity", name) for name in ("slots", "facets", "holes", "weld_length_mm")}
+    taken = ("slots", "facets", "holes", "base_holes", "weld_length_mm")
+    each = {name: products(tables, "nodes.quantity", name) for name in taken}
     coated = [products(tables, f"{name}.quantity", "coated_area_m2") for name in ("nodes", "members")]
     masses = [total(tables, f"{name}.total_mass_kg") for name in ("nodes", "members", "panels")]
     hours = [pieces[f"{name}s"] * rates[f"hours_{name}"].cell for name in ("node", "member", "panel")]
@@ -162,24 +181,26 @@ def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, st
         ("node_run", "Fabrication", "Nodes", "pieces", pieces["nodes"]),
         ("slot", "Fabrication", "Slots of nodes", "pieces", each["slots"]),
         ("facet", "Fabrication", "Facets of nodes", "pieces", each["facets"]),
-        ("hole", "Fabrication", "Bores and holes of nodes", "pieces", each["holes"]),
+        ("hole", "Fabrication", "Bores and holes of nodes and bases", "pieces", each["holes"] + each["base_holes"]),
         ("weld", "Fabrication", "Welds", "m", each["weld_length_mm"] / thousand),
         ("coating", "Fabrication", "Coated area of nodes and members", "m²", coated[0] + coated[1]),
         ("hardware", "Hardware", "Bolts, washers and small parts", "nodes", pieces["nodes"]),
-        ("assembly", "Assembly", "Hours in the shop", "h", hours[0] + hours[1] + hours[2]),
-        ("transport", "Transport", "Mass of all parts", "t", (masses[0] + masses[1] + masses[2]) / thousand),
+        ("assembly", "Assembly", "Hours in the shop", "h", add_up(hours)),
+        ("handling", "Transport", "Parts handled and packed", "pieces", add_up([*pieces.values()])),
+        ("transport", "Transport", "Mass of all parts", "t", add_up(masses) / thousand),
         ("erect_node", "Erection", "Nodes", "pieces", pieces["nodes"]),
         ("erect_member", "Erection", "Members", "pieces", pieces["members"]),
         ("erect_panel", "Erection", "Panels", "pieces", pieces["panels"]),
     )
 
 
-def _rate_table(rates: Sequence[Rate]) -> Table:
+def make_rate_table(rates: Mapping[str, Rate]) -> Table:
+    """Make the table "rates"."""
     data = {
-        "code": [rate.code for rate in rates],
-        "description": [rate.description for rate in rates],
-        "unit": [rate.unit for rate in rates],
-        "value": [rate.value for rate in rates],
+        "code": [*rates],
+        "description": [rate.description for rate in rates.values()],
+        "unit": [rate.unit for rate in rates.values()],
+        "value": [rate.value for rate in rates.values()],
     }
     return make_live_table("rates", data)
 
@@ -230,6 +251,22 @@ def _results(
         Result("A further node class", currency, further, "cost_per_node_class"),
         Result("Rates that are blank and count as nothing", "", blanks, "blank_rates"),
     )
+
+
+def _stock_waste(tables: Tables, pricing: Pricing) -> Iterator[Result]:
+    """Show what of the stock is waste; it was paid for with the stock and is multiplied nowhere."""
+    all_of = Given(1.0)
+    if pricing.sheets and "sheets" in tables:
+        used = total(tables, "sheets.part_area_m2") / _bought(tables, "sheets.stock", pricing.sheets)
+        yield Result("Waste of sheets, in their price", "%", (all_of - used) * Given(100.0))
+    if pricing.bars and "bars" in tables:
+        left = total(tables, "bars.offcut_mm") / Given(1000.0) / _bought(tables, "bars.stock", pricing.bars)
+        yield Result("Offcuts of bars, in their price", "%", left * Given(100.0))
+
+
+def _bought(tables: Tables, path: str, prices: Sequence[Price]) -> Live:
+    """Area (m²) or length (m) of the stock that is used up."""
+    return add_up([matches(tables, path, price.name) * Given(price.size) for price in prices])
 
 
 def _named(result: Result) -> NamedCell:

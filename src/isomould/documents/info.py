@@ -39,4 +39,6 @@ class ProjectInfo(Settings):
     client: Text = ""
     revision: Text = ""
     author: Text = ""
+    logo: Text = ""
+    """A PNG file beside the project file."""
     date: Annotated[datetime.date | None, BeforeValidator(_drawn_up)] = None

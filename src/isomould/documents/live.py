@@ -6,6 +6,7 @@
 """
 
 import operator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -23,6 +24,9 @@ class Live:
 
     def __add__(self, other: "Live") -> "Joint":
         return Joint("+", self, other)
+
+    def __sub__(self, other: "Live") -> "Joint":
+        return Joint("-", self, other)
 
     def __mul__(self, other: "Live") -> "Joint":
         return Joint("*", self, other)
@@ -94,3 +98,13 @@ class Joint(Live):
     def value(self) -> float:
         """The result."""
         return float(_APPLY[self.sign](self.left.value, self.right.value))
+
+
+def add_up(values: Sequence[Live]) -> Live:
+    """Give the sum of one or more expressions.
+
+    >>> add_up([Given(1.0), Given(2.0), Given(4.0)]).value
+    7.0
+    """
+    first, *others = values
+    return Joint("+", add_up(values[:-1]), values[-1]) if others else first

@@ -243,7 +243,7 @@ def _panels(kit: Kit, settings: PanelSettings, *, drawn: bool) -> Columns:
         **{name: [row.get(name) for row in measures] for name in _MEASURES},
         "outline": ["" if plain else _points(o) for plain, o in zip(sound, panels.outlines, strict=True)],
         "area_m2": areas.tolist(),
-        "charged_area_m2": _charged(size, settings).tolist(),
+        "charged_area_m2": charged_areas(size, settings).tolist(),
         "box_width_mm": size[:, 0].tolist(),
         "box_height_mm": size[:, 1].tolist(),
         "mass_kg": (areas * settings.thickness / 1e3 * settings.density).tolist(),
@@ -282,7 +282,7 @@ def _angles(outline: Floats) -> Floats:
     return np.arctan2(cross, (ahead * behind).sum(axis=1))
 
 
-def _charged(size: Floats, settings: PanelSettings) -> Floats:
+def charged_areas(size: Floats, settings: PanelSettings) -> Floats:
     """Charged area (k,) m²: each side of the box rounded up to `glass_round`, at least `glass_min_area`."""
     step = settings.glass_round
     boxes = step * np.ceil(np.round(size / step, 9))

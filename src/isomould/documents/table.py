@@ -90,8 +90,8 @@ def make_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:
 
 def cells(table: Table, column: Column) -> list[Cell]:
     """Give one column as plain Python values, None for a blank."""
-    series = table.frame[column.name]
-    return series.astype(object).where(series.notna(), None).tolist()
+    values = table.frame[column.name].tolist()
+    return [None if value is pd.NA or value != value else value for value in values]  # noqa: PLR0124
 
 
 def _largest_arm(names: Iterable[str]) -> int:

@@ -1,7 +1,7 @@
-"""Totals of the schedules and the sums that must agree: computed here, written as live formulas."""
+"""Totals of the schedules: computed here, written as live formulas."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -31,32 +31,6 @@ class Total(Live):
         return f"{self.table.title}: {self.column.header.partition(' (')[0].lower()}"
 
 
-@dataclass(frozen=True, eq=False)
-class Reconciliation:
-    """Two totals that must agree to `limit`."""
-
-    what: str
-    found: Total
-    expected: Total
-    limit: float
-
-    @property
-    def status(self) -> Literal["pass", "fail"]:
-        """Whether they do."""
-        return "pass" if abs(self.found.value - self.expected.value) <= self.limit else "fail"
-
-
-_AREA_LIMIT = 1e-6
-_RECONCILED = (
-    ("Node quantities = nodes", "nodes.quantity", "node_instances.location", 0.0),
-    ("Member quantities = members", "members.quantity", "member_instances.location", 0.0),
-    ("Panel quantities = panels", "panels.quantity", "panel_instances.location", 0.0),
-    ("Parts on sheets = panels", "sheets.parts", "panel_instances.location", 0.0),
-    ("Area on sheets = panel area (m²)", "sheets.part_area_m2", "panels.total_area_m2", _AREA_LIMIT),
-    ("Pieces on bars = members", "bars.pieces", "member_instances.location", 0.0),
-)
-
-
 def column_totals(tables: Iterable[Table]) -> tuple[Total, ...]:
     """Give the totals of every table in order."""
     return tuple(Total(table, column) for table in tables for column in table.columns if column.total)
@@ -67,21 +41,6 @@ def make_summary(facts: Sequence[tuple[str, float, str]], tables: Iterable[Table
     totals = [(total.item, total.value, unit(total.column.name)) for total in column_totals(tables)]
     item, value, units = zip(*facts, *totals, strict=True) if facts or totals else ((), (), ())
     return make_table("summary", {"item": item, "value": value, "unit": units})
-
-
-def reconcile(tables: Iterable[Table]) -> tuple[Reconciliation, ...]:
-    """Pair the totals that must agree, for the tables that hold rows."""
-    filled = {table.name: table for table in tables if len(table.frame)}
-    pairs = ((what, _named(filled, a), _named(filled, b), limit) for what, a, b, limit in _RECONCILED)
-    return tuple(Reconciliation(what, a, b, limit) for what, a, b, limit in pairs if a and b)
-
-
-def _named(tables: Mapping[str, Table], path: str) -> Total | None:
-    name, _, field = path.partition(".")
-    if name not in tables:
-        return None
-    column = next(column for column in tables[name].columns if column.name == field)
-    return Total(tables[name], column, "count" if field == "location" else "sum")
 
 
 def _sum(filled: Sequence[object], column: Column) -> float:

@@ -30,7 +30,7 @@ def aspect_ratios(mesh: Mesh) -> Floats:
 def face_classes(mesh: Mesh, tolerance: float, *, flippable: bool = False) -> Ints:
     """Sort the faces into classes (f,) of equal polygons: all sides and short diagonals within `tolerance` mm."""
     result, used = np.empty(len(mesh.face_ij), dtype=np.int64), 0
-    for rows, corners in _groups(mesh):
+    for rows, corners in faces_by_corners(mesh):
         numbers = _readings(corners, flippable=flippable)
         labels = np.zeros((*numbers.shape[:2], 1), dtype=np.int64)
         result[rows] = used + classify(numbers, labels, np.full(numbers.shape[2], tolerance)).of
@@ -43,7 +43,7 @@ def angle(a: Floats, b: Floats) -> Floats:
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.einsum("...k,...k->...", a, b))
 
 
-def _groups(mesh: Mesh) -> list[tuple[Ints, Floats]]:
+def faces_by_corners(mesh: Mesh) -> list[tuple[Ints, Floats]]:
     """Faces by their number of corners: rows (g,) and corners (g, n, 3)."""
     count = np.diff(mesh.face_offsets)
     found: list[tuple[Ints, Floats]] = []
@@ -55,7 +55,7 @@ def _groups(mesh: Mesh) -> list[tuple[Ints, Floats]]:
 
 def _by_corners(mesh: Mesh, measure: Callable[[Floats], Floats]) -> Floats:
     result = np.empty(len(mesh.face_ij))
-    for rows, corners in _groups(mesh):
+    for rows, corners in faces_by_corners(mesh):
         result[rows] = measure(corners)
     return result
 

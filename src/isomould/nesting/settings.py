@@ -1,8 +1,8 @@
 """The `[stock]` table: what lies in the rack, and how it may be cut."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from isomould.settings import Settings
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
@@ -12,11 +12,14 @@ Turning = Literal["none", "half", "quarter"]
 
 ROTATIONS_DEG: dict[Turning, tuple[int, ...]] = {"none": (0,), "half": (0, 180), "quarter": (0, 90, 180, 270)}
 
+StockName = Annotated[str, Field(min_length=1, max_length=120)]
+"""Quoted in formulas of the workbook, which hold 255 characters."""
+
 
 class SheetStock(Settings):
     """A stock sheet. `quantity` None is unlimited; a sheet with a grain takes no quarter turns."""
 
-    name: str
+    name: StockName
     width: PositiveLength
     height: PositiveLength
     price: NonNegativeNumber = 0.0
@@ -27,7 +30,7 @@ class SheetStock(Settings):
 class BarStock(Settings):
     """A stock bar of one section. `quantity` None is unlimited."""
 
-    section: str
+    section: StockName
     length: PositiveLength
     price: NonNegativeNumber = 0.0
     quantity: Count | None = None

@@ -11,7 +11,9 @@ from typing import Any, cast, get_args
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from isomould.documents.title_block import Logo
 from isomould.errors import OutputFault, Refused
+from isomould.project.logo import read_logo
 from isomould.project.schema import Project, ShapeTable
 from isomould.project.wording import word
 from isomould.settings import Settings
@@ -30,6 +32,7 @@ class LoadedProject:
     folder: Path
     source: bytes
     shapes: tuple[tuple[str, Project], ...] = ()
+    logo: Logo | None = None
 
 
 def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
@@ -53,7 +56,8 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
     data = reduce(_override, overrides, _parse(source, path))
     project = validate(data, path.name)
     shapes = [(shape.slug, validate(_reshaped(data, shape), f"{path.name}, {shape.name}")) for shape in project.shapes]
-    return LoadedProject(project, path.resolve().parent, source, tuple(shapes))
+    folder = path.resolve().parent
+    return LoadedProject(project, folder, source, tuple(shapes), read_logo(folder, project.project.logo))
 
 
 def read_tables(path: Path, overrides: Sequence[str] = ()) -> Mapping[str, Any]:

@@ -20,6 +20,7 @@ from isomould.verify.checks import (
     nesting,
     nodes,
     panels,
+    parquet,
     polygons,
     shapes,
     sheets,
@@ -50,6 +51,7 @@ _GROUPS = (
     classes,
     drawings,
     workbook,
+    parquet,
     totals,
     shapes,
     sheets,
@@ -57,7 +59,7 @@ _GROUPS = (
 )
 
 
-_SCHEDULED = (panels, nodes, polygons, topology, workbook, totals, manifest)
+_SCHEDULED = (panels, nodes, polygons, topology, workbook, parquet, totals, manifest)
 """What can be proved of schedules alone."""
 
 

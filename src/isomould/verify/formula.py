@@ -42,7 +42,8 @@ def _numbers(*values: Any) -> list[float]:
 
 
 def _product_sum(*columns: list[Any]) -> float:
-    return math.fsum(math.prod(_numbers(*row)) for row in zip(*columns, strict=True))
+    """Add up the products of rows; what is no number counts as 0."""
+    return math.fsum(math.prod(sum(_numbers(value)) for value in row) for row in zip(*columns, strict=True))
 
 
 def _subtotal(code: float, *values: Any) -> Any:

@@ -6,8 +6,9 @@ from isomould.documents.columns import Column, per_piece
 from isomould.documents.live import Given, Here, Joint, Live, NamedCell, RateCell
 from isomould.documents.numbers import format_number
 from isomould.documents.quantities import Blanks, Matches, Products, SumIf
+from isomould.documents.reconciliations import Reconciliation
 from isomould.documents.table import Table
-from isomould.documents.totals import Reconciliation, Total
+from isomould.documents.totals import Total
 
 RATE = "rate_"
 """Before the code of a rate in the name of its cell."""
@@ -19,7 +20,7 @@ _NUMBER_FORMATS = {
     "m2": "0.000",
     "cm3": "0.0",
     "percent": "0.0",
-    **dict.fromkeys(("quantity", "rate", "amount"), "#,##0.00"),
+    **dict.fromkeys(("quantity", "rate", "amount", "price", "cost"), "#,##0.00"),
 }
 
 
@@ -104,11 +105,6 @@ def _(live: Blanks, table: Table) -> str:
     return f"COUNTBLANK({_column(live.table, live.column)})"
 
 
-def total_formula(total: Total) -> str:
-    """Sum (or count) a whole column, filtered or not."""
-    return f"={_words(total, total.table)}"
-
-
 def visible_formula(total: Total) -> str:
     """Sum the visible rows of a column, as a total row under a filtered table does."""
     return f"=SUBTOTAL(109,{_column(total.table, total.column)})"
@@ -130,10 +126,10 @@ def row_formula(table: Table, column: Column) -> str | None:
     return f"={_cell(table, headers['quantity'])}*{_cell(table, headers[piece])}"
 
 
-def status_formula(check: Reconciliation) -> str:
-    """Say whether two totals agree."""
-    difference = f"{total_formula(check.found)[1:]}-{total_formula(check.expected)[1:]}"
-    return f'=IF(ABS({difference})<={check.limit!r},"pass","fail")'
+def status_formula(check: Reconciliation, table: Table) -> str:
+    """Say whether two figures agree."""
+    difference = f"{_words(check.found, table)}-{_words(check.expected, table)}"
+    return f'=IF(ABS({difference})<={format_number(check.limit)},"pass","fail")'
 
 
 def number_format(column: Column) -> str:

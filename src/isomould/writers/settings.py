@@ -36,3 +36,5 @@ class DeliverSettings(Settings):
     """Whether shop drawings are written."""
     paper: Literal["auto", "A4", "A3"] = "auto"
     """Of the shop drawings; by default A4 where parts are drawn at 1:20 or larger, else A3."""
+    parquet: Flag = False
+    """Write every table as Apache Parquet too."""

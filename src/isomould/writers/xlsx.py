@@ -4,24 +4,27 @@ XlsxWriter is known here and in the `xlsx_…` modules beside.
 """
 
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 from xlsxwriter import Workbook
-from xlsxwriter.worksheet import Worksheet
 
 from isomould.documents.costs import Result
 from isomould.documents.info import ProjectInfo
 from isomould.documents.table import Table, cells
-from isomould.documents.title_block import heading, title_lines
-from isomould.documents.totals import Total, column_totals, reconcile
+from isomould.documents.title_block import Logo, heading
+from isomould.documents.totals import Total, column_totals
 from isomould.errors import Note
 from isomould.writers.disk import write_bytes
-from isomould.writers.formulas import status_formula, total_formula
+from isomould.writers.formulas import formula
+from isomould.writers.xlsx_checks import write_reconciliations
 from isomould.writers.xlsx_costs import write_rates, write_results
-from isomould.writers.xlsx_page import Page, add_table, write_cell, write_column, write_texts
+from isomould.writers.xlsx_cover import Figures, cover_table, write_cover
+from isomould.writers.xlsx_page import TEXTS_BELOW, Page, add_table, write_cell, write_column, write_texts
+from isomould.writers.xlsx_print import fit_columns, fit_texts, set_up_print
+from isomould.writers.xlsx_repetition import draw_repetition
 
 _OPTIONS = {
     "in_memory": True,
@@ -30,27 +33,23 @@ _OPTIONS = {
     "strings_to_numbers": False,
 }
 _CREATED = datetime(2000, 1, 1, tzinfo=UTC)
-_A3 = 8
-_WIDEST_PX = 400
-_HEADER_TEXT = 60
-_RED = {"bg_color": "#FFC7CE", "font_color": "#9C0006"}
 
 
 @dataclass(frozen=True, eq=False)
 class Words:
-    """What stands beside and below the tables: title block, notes, and the figures that follow from the cost."""
+    """What stands beside the tables: title block, notes, the figures that follow from the cost, a logo."""
 
     info: ProjectInfo
     notes: Sequence[Note] = ()
     results: Sequence[Result] = ()
+    logo: Logo | None = None
 
 
 def write_workbook(path: Path, tables: Sequence[Table], words: Words) -> None:
-    """Write the tables as sheets: "summary", "rates" and "cost" first, "checks" last, the others in their order.
+    """Write a cover and the tables as sheets: "summary", "rates" and "cost" first, "checks" last, others in order.
 
     The rows of "summary" that are totals of the others (`make_summary`) are formulas.
-    Under "checks" stand the sums that must agree, under "cost" sub-totals and the total. Notes and title block stand on
-    the first sheet.
+    Under "checks" stand the sums that must agree, under "cost" sub-totals and the total, under "summary" the notes.
 
     Raises
     ------
@@ -75,68 +74,47 @@ def _render(tables: Sequence[Table], words: Words) -> bytes:
     buffer = io.BytesIO()
     with Workbook(buffer, _OPTIONS) as book:
         book.set_properties({"title": heading(words.info), "author": words.info.author, "created": _CREATED})
-        pages = [Page(book, book.add_worksheet(table.title), table) for table in tables]
+        cover, *pages = (Page(book, book.add_worksheet(table.title), table) for table in (cover_table(), *tables))
         for page in pages:
-            _write_page(page, words.info)
-        _write_extras(pages, words)
+            add_table(page)
+            for index, column in enumerate(page.table.columns):
+                write_column(page, index, column)
+        failed = _write_extras(pages, words)
+        for page in (cover, *pages):
+            set_up_print(page, words.info)
+        for page in pages:
+            fit_texts(page) if page.table.name in TEXTS_BELOW else fit_columns(page)
+        write_cover(cover, pages, words.info, words.logo, _figures(words.results, failed))
     return buffer.getvalue()
 
 
-def _write_page(page: Page, info: ProjectInfo) -> None:
-    add_table(page)
-    for index, column in enumerate(page.table.columns):
-        write_column(page, index, column)
-    if page.table.name == "summary":
-        write_texts(page, (0, len(page.table.columns) + 1), title_lines(info))
-    _set_up_print(page.sheet, info)
+def _write_extras(pages: Sequence[Page], words: Words) -> int | None:
+    """Write what stands beside and below the tables; give the number of failed checks, if there is their sheet."""
+    tables, by_name = [page.table for page in pages], {page.table.name: page for page in pages}
+    if "summary" in by_name:
+        _write_summary(by_name["summary"], column_totals(tables), words.notes)
+    if "rates" in by_name:
+        write_rates(by_name["rates"])
+    if "cost" in by_name:
+        write_results(by_name["cost"], words.results)
+    if "repetition" in by_name:
+        draw_repetition(by_name["repetition"])
+    return write_reconciliations(by_name["checks"], tables) if "checks" in by_name else None
 
 
-def _write_extras(pages: Iterable[Page], words: Words) -> None:
-    tables = [page.table for page in pages]
-    extras: dict[str, Callable[[Page], None]] = {
-        "summary": lambda page: _write_summary(page, column_totals(tables), words.notes),
-        "rates": write_rates,
-        "cost": lambda page: write_results(page, words.results),
-        "checks": lambda page: _write_reconciliation(page, tables),
-    }
-    for page in pages:
-        extras.get(page.table.name, lambda _: None)(page)
-        page.sheet.autofit(_WIDEST_PX)
+def _figures(results: Sequence[Result], failed: int | None) -> Figures:
+    total = next((result for result in results if result.name == "total_cost"), None)
+    return Figures(total.live.value, total.unit, failed) if total else Figures(failed=failed)
 
 
 def _write_summary(page: Page, totals: Sequence[Total], notes: Sequence[Note]) -> None:
-    """Make the totals live, wherever they stand, and repeat the notes below."""
+    """Make the totals live, wherever they stand, show counts as such, and repeat the notes below."""
     by_item = {total.item: total for total in totals}
-    for row, item in enumerate(cells(page.table, page.table.columns[0]), start=1):
-        if total := by_item.get(str(item)):
-            write_cell(page, (row, 1), total.value, None, total_formula(total))
+    counts, measures = page.style(num_format="#,##0", align="right"), page.style(num_format="#,##0.000", align="right")
+    items, values = (cells(page.table, column) for column in page.table.columns[:2])
+    for row, (item, value) in enumerate(zip(items, values, strict=True), start=1):
+        total = by_item.get(str(item))
+        style = counts if isinstance(value, int | float) and float(value).is_integer() else measures
+        write_cell(page, (row, 1), value, style, formula(total, page.table) if total else None)
     rows = [(note.code, note.field, note.text) for note in notes]
     write_texts(page, (page.below, 0), [("Notes",), *rows] if rows else [])
-
-
-def _write_reconciliation(page: Page, tables: Sequence[Table]) -> None:
-    """Write the sums that must agree under the columns of the checks, and turn what fails red."""
-    status = [column.name for column in page.table.columns].index("status")
-    write_texts(page, (page.below, 0), [("Id", "Reconciliation", "Found", "Expected")])
-    row = page.below
-    for row, check in enumerate(reconcile(tables), start=page.below + 1):
-        write_texts(page, (row, 0), [(f"R{row - page.below}", check.what)])
-        write_cell(page, (row, 2), check.found.value, None, total_formula(check.found))
-        write_cell(page, (row, 3), check.expected.value, None, total_formula(check.expected))
-        write_cell(page, (row, status), check.status, None, status_formula(check))
-    failing = {"type": "cell", "criteria": "==", "value": '"fail"', "format": page.style(**_RED)}
-    page.sheet.conditional_format(1, status, row, status, failing)
-
-
-def _set_up_print(sheet: Worksheet, info: ProjectInfo) -> None:
-    sheet.set_landscape()
-    sheet.set_paper(_A3)
-    sheet.fit_to_pages(1, 0)
-    sheet.repeat_rows(0)
-    sheet.set_header(f"&L{_header_text(heading(info))}&R&A")
-    sheet.set_footer(f"&L{_header_text(info.client)}&RPage &P of &N")
-
-
-def _header_text(text: str) -> str:
-    """Cut user text for a page header, where & starts a code and 255 characters are the limit."""
-    return text[:_HEADER_TEXT].replace("&", "&&")

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from isomould.documents.costs import Result
 from isomould.documents.table import cells
 from isomould.writers.formulas import RATE, formula
+from isomould.writers.xlsx_checks import RED
 from isomould.writers.xlsx_page import Page, absolute, write_cell, write_texts
 
 _INPUT = {"bg_color": "#FFF2CC", "border": 1, "border_color": "#BF9000", "num_format": "#,##0.00", "locked": False}
 _MONEY = "#,##0.00"
-_RED = {"bg_color": "#FFC7CE", "font_color": "#9C0006"}
 _VALIDATION = {
     "validate": "decimal",
     "criteria": ">=",
@@ -29,7 +29,7 @@ def write_rates(page: Page) -> None:
         page.sheet.write_comment(row, 3, f"{descriptions[row - 1]} ({units[row - 1]}). Blank counts as nothing.")
     last = len(codes)
     page.sheet.data_validation(1, 3, last, 3, _VALIDATION)
-    page.sheet.conditional_format(1, 3, last, 3, {"type": "blanks", "format": page.style(**_RED)})
+    page.sheet.conditional_format(1, 3, last, 3, {"type": "blanks", "format": page.style(**RED)})
 
 
 def write_results(page: Page, results: Sequence[Result]) -> None:
@@ -42,5 +42,5 @@ def write_results(page: Page, results: Sequence[Result]) -> None:
         if result.name:
             page.book.define_name(result.name, absolute(page, row, amount))
         if result.name == "blank_rates":
-            missing = {"type": "cell", "criteria": ">", "value": 0, "format": page.style(**_RED)}
+            missing = {"type": "cell", "criteria": ">", "value": 0, "format": page.style(**RED)}
             page.sheet.conditional_format(row, amount, row, amount, missing)

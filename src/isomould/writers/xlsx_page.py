@@ -18,6 +18,12 @@ from isomould.documents.totals import Total
 from isomould.errors import Refused
 from isomould.writers.formulas import cell_formulas, number_format, row_formula, table_name, visible_formula
 
+WIDEST = 36
+"""Characters in a column."""
+
+TEXTS_BELOW = frozenset(("summary", "rates", "cost", "checks"))
+"""Tables with notes, sub-totals or sums below them."""
+
 
 @dataclass(frozen=True)
 class Page:
@@ -63,14 +69,20 @@ def _column_options(table: Table, column: Column) -> dict[str, object]:
 
 def write_column(page: Page, index: int, column: Column) -> None:
     """Write header, values and total of a column."""
-    style = page.style(num_format=number_format(column))
-    align = "left" if column.kind in {"text", "yes_no"} else "right"
-    write_cell(page, (0, index), column.header, page.style(bold=True, bottom=1, align=align))
+    side = {"align": "left", "indent": int(index > 0)} if column.kind in {"text", "yes_no"} else {"align": "right"}
+    style = page.style(num_format=number_format(column), valign="top", text_wrap=is_wrapped(page.table, column), **side)
+    write_cell(page, (0, index), column.header, page.style(bold=True, bottom=1, valign="top", text_wrap=True, **side))
     found = zip(cells(page.table, column) or [None], cell_formulas(page.table, column), strict=True)
     for row, (cell, formula) in enumerate(found, start=1):
         write_cell(page, (row, index), cell, style, formula)
     if column.total:
         _write_total(page, index, Total(page.table, column))
+
+
+def is_wrapped(table: Table, column: Column) -> bool:
+    """Tell whether a column has texts too long for one line; sheets with texts below their table are wider instead."""
+    lists = column.kind == "text" and table.name not in TEXTS_BELOW
+    return lists and any(len(str(cell)) >= WIDEST for cell in cells(table, column))
 
 
 def _write_total(page: Page, index: int, total: Total) -> None:

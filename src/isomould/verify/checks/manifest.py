@@ -33,7 +33,9 @@ def manifest(delivery: Delivery) -> Measured:
 
 def _beyond(delivery: Delivery, path: str) -> bool:
     """Tell whether a file needs more proof than a folder of schedules gets."""
-    return delivery.scope == "schedules" and path not in SCHEDULES and not re.fullmatch(r"tables/\w+\.csv", path)
+    return (
+        delivery.scope == "schedules" and path not in SCHEDULES and not re.fullmatch(r"tables/\w+\.(csv|parquet)", path)
+    )
 
 
 RULES = (Rule("V50", "the manifest lists exactly the files that are there", 0, "files", manifest),)

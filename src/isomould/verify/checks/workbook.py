@@ -8,13 +8,13 @@ from isomould.verify.read.tables import Table, number
 from isomould.verify.read.workbook import Cell, Value, Workbook
 from isomould.verify.rules import Measured, Rule, Unreadable, faults, worst_of
 
-CALCULATED = {"Summary", "Checks", "Cost", "Rates"}
+CALCULATED = {"Cover", "Summary", "Checks", "Cost", "Rates", "Repetition"}
 """Sheets that may hold formulas and texts anywhere."""
 
 _NUMERIC = re.compile(
     r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|holes|base_holes"
-    r"|parts|cuts|pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect|horizontal_parallels"
-    r"|\w+_(count|classes)"
+    r"|parts|cuts|pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect"
+    r"|horizontal_parallels|\w+_(count|classes|cost)"
 )
 _LISTS = {"packers_mm"}
 
