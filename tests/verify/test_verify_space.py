@@ -14,6 +14,7 @@ RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES)
 T = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 RING = np.column_stack([5000 * np.cos(T), 4600 * np.sin(T), 300 * np.cos(2 * T)])
 RING[5] += [0.002, 0.004, 0.003]
+FLAT = {"kind": "arc", "span": 5000, "rise": 600}
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +24,7 @@ def built(tmp_path_factory):
     ring = {"curve": {"kind": "polyline", "points": RING.tolist(), "closed": True}}
     arc = {"curve": {"kind": "polyline", "points": MONGE["rail"]["curve"]["points"][:5]}}
     rails = {"vault": arc, "ring": ring}
-    base = changed(MONGE, generatrix={"divide": {"nodes": 2}}, stock=HALL)
+    base = changed(MONGE, generatrix={"curve": FLAT, "divide": {"nodes": 1}}, stock=HALL)
     projects = {n: changed(base, rail=rail) for n, rail in rails.items()}
     run = isomould.Run(effort="quick", jobs=1)
     return {
