@@ -189,6 +189,10 @@ HALL = {"sheets": [{"name": "Hall", "width": "100 m", "height": "100 m"}]}
 """Sheets so large that all panels of a test fit on one: the fewest files to write and read."""
 
 
+BARE = {"drawings": False, "strips": []}
+"""For deliveries in tests of something else: no shop drawings, no strips."""
+
+
 def trimmed(data: dict[str, Any], *planes: dict[str, Any], sill: bool = True) -> dict[str, Any]:
     """Give a project cut by planes, by default the ground."""
     ground = {"plane": {"z": 0}, "keep": "above"}

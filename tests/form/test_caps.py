@@ -15,7 +15,7 @@ from isomould.form.mesh import Family
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
-from museum import HALL, SMALL, changed, design, sphere, trimmed, write_project
+from museum import BARE, HALL, SMALL, changed, design, sphere, trimmed, write_project
 
 CAP = {"pole": "cap"}
 TORUS = changed(
@@ -30,6 +30,7 @@ GLOBE = changed(
     generatrix={"curve": MERIDIAN},
     surface={"pole": "cap", "min_pole_angle_deg": 25},
     stock=HALL,
+    deliver=BARE,
 )
 DOME = changed(GLOBE, generatrix={"curve": {**MERIDIAN, "start_deg": 0}})
 OVERHANG = changed(
@@ -195,7 +196,7 @@ def deliver(folder, data):
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """A delivered globe and a torus."""
-    projects = {"globe": GLOBE, "torus": changed(TORUS, stock=HALL)}
+    projects = {"globe": GLOBE, "torus": changed(TORUS, stock=HALL, deliver=BARE)}
     return {name: deliver(tmp_path_factory.mktemp(name), data) for name, data in projects.items()}
 
 

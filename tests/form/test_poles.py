@@ -13,7 +13,19 @@ from isomould.form.mesh import Family, NodeKind
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
-from museum import EDGE_OFFSET_VAULT, HALL, SMALL, VAULT, changed, design, sketched, sphere, template, write_project
+from museum import (
+    BARE,
+    EDGE_OFFSET_VAULT,
+    HALL,
+    SMALL,
+    VAULT,
+    changed,
+    design,
+    sketched,
+    sphere,
+    template,
+    write_project,
+)
 
 TORUS = changed(
     sphere(30, 30),
@@ -104,7 +116,7 @@ class TestFit:
 def delivered(tmp_path_factory):
     """A delivered torus."""
     folder = tmp_path_factory.mktemp("torus")
-    project = write_project(folder / "torus.toml", changed(TORUS, stock=HALL))
+    project = write_project(folder / "torus.toml", changed(TORUS, stock=HALL, deliver=BARE))
     return isomould.build(project, folder / "torus", run=isomould.Run(effort="quick", jobs=1))
 
 

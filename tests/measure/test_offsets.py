@@ -15,7 +15,7 @@ from isomould.measure.offsets import (
     make_double_layer,
     vertex_distances,
 )
-from museum import EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere
+from museum import BARE, EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere
 
 MITRED = changed(VAULT, rail={"ends": "mitred"})
 STATIONS = {**changed(VAULT, surface={"kind": "moulding"}), "rail": {**VAULT["rail"], "divide": {"stations": 12}}}
@@ -101,7 +101,7 @@ def test_residual_of_edge_offset_slopes():
 
 
 def test_double_layer_is_delivered(tmp_path, project_file):
-    path = project_file(changed(SMALL, deliver={"double_layer": {"offset": "face", "distance": "-0.3 m"}}))
+    path = project_file(changed(SMALL, deliver={**BARE, "double_layer": {"offset": "face", "distance": "-0.3 m"}}))
     folder = isomould.build(path, tmp_path / "out", run=isomould.Run(effort="quick", jobs=1)).folder
     lines = (folder / "model" / "double-layer.obj").read_text(encoding="utf-8").splitlines()
     heads = [line.split()[0] for line in lines]

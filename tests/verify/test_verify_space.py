@@ -8,7 +8,7 @@ from verify_museum import spoilt, status, with_rail, with_raw
 import isomould
 from isomould.verify.checks import nodes, panels, polygons, topology
 from isomould.verify.delivery import Delivery
-from museum import HALL, MONGE, changed, write_project
+from museum import BARE, HALL, MONGE, changed, write_project
 
 RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES)
 T = np.linspace(0, 2 * np.pi, 8, endpoint=False)
@@ -24,7 +24,7 @@ def built(tmp_path_factory):
     ring = {"curve": {"kind": "polyline", "points": RING.tolist(), "closed": True}}
     arc = {"curve": {"kind": "polyline", "points": MONGE["rail"]["curve"]["points"][:5]}}
     rails = {"vault": arc, "ring": ring}
-    base = changed(MONGE, generatrix={"curve": FLAT, "divide": {"nodes": 1}}, stock=HALL)
+    base = changed(MONGE, generatrix={"curve": FLAT, "divide": {"nodes": 1}}, stock=HALL, deliver=BARE)
     projects = {n: changed(base, rail=rail) for n, rail in rails.items()}
     run = isomould.Run(effort="quick", jobs=1)
     return {
