@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from isomould.design import Design, make_design
+from isomould.design import Design, Sketch, make_design, sketch
 from isomould.project.load import validate
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
@@ -185,6 +185,14 @@ def dome(radius: float, nodes: int = 8, scale: float = 1.0) -> dict[str, Any]:
     }
 
 
+HALL = {"sheets": [{"name": "Hall", "width": "100 m", "height": "100 m"}]}
+"""Sheets so large that all panels of a test fit on one: the fewest files to write and read."""
+
+
+BARE = {"drawings": False, "strips": []}
+"""For deliveries in tests of something else: no shop drawings, no strips."""
+
+
 def trimmed(data: dict[str, Any], *planes: dict[str, Any], sill: bool = True) -> dict[str, Any]:
     """Give a project cut by planes, by default the ground."""
     ground = {"plane": {"z": 0}, "keep": "above"}
@@ -194,6 +202,11 @@ def trimmed(data: dict[str, Any], *planes: dict[str, Any], sill: bool = True) ->
 def design(data: dict[str, Any], folder: Path = TEMPLATES) -> Design:
     """Compute a design from the tables of a project."""
     return make_design(validate(data, "museum"), folder)
+
+
+def sketched(data: dict[str, Any]) -> Sketch:
+    """Compute a design without its parts, in a fraction of the time."""
+    return sketch(validate(data, "museum"), TEMPLATES)
 
 
 def changed(data: dict[str, Any], **tables: dict[str, Any]) -> dict[str, Any]:

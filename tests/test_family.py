@@ -182,6 +182,15 @@ def test_a_project_of_one_shape_has_no_kit(project_file):
     assert isomould.check(project_file(changed(SMALL))).kit is None
 
 
+def test_schedules_of_a_family_are_those_of_its_first_shape(project_file, tmp_path, family_folder):
+    run = isomould.Run(effort="quick", jobs=1)
+    built = isomould.schedule(project_file(FAMILY), tmp_path / "out", run=run)
+    assert built.certificate.passed
+    assert "shapes" not in {path.name for path in built.folder.iterdir()}
+    for table in (built.folder / "tables").iterdir():
+        assert table.read_bytes() == (family_folder / "tables" / table.name).read_bytes(), table.name
+
+
 def test_marks_of_a_former_delivery_belong_to_all_shapes(project_file, tmp_path, family_folder):
     run = isomould.Run(effort="quick", jobs=1, previous=family_folder)
     with pytest.raises(Refused, match="E-SHAPE-PREVIOUS --previous"):

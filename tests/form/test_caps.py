@@ -15,7 +15,7 @@ from isomould.form.mesh import Family
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
-from museum import SMALL, changed, design, sphere, trimmed, write_project
+from museum import BARE, HALL, SMALL, changed, design, sphere, trimmed, write_project
 
 CAP = {"pole": "cap"}
 TORUS = changed(
@@ -29,7 +29,8 @@ GLOBE = changed(
     sphere(30, 30),
     generatrix={"curve": MERIDIAN},
     surface={"pole": "cap", "min_pole_angle_deg": 25},
-    stock={"max_blank_length": 20_000},
+    stock=HALL,
+    deliver=BARE,
 )
 DOME = changed(GLOBE, generatrix={"curve": {**MERIDIAN, "start_deg": 0}})
 OVERHANG = changed(
@@ -195,7 +196,7 @@ def deliver(folder, data):
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """A delivered globe and a torus."""
-    projects = {"globe": GLOBE, "torus": changed(TORUS, stock={"max_blank_length": 20_000})}
+    projects = {"globe": GLOBE, "torus": changed(TORUS, stock=HALL, deliver=BARE)}
     return {name: deliver(tmp_path_factory.mktemp(name), data) for name, data in projects.items()}
 
 
@@ -283,7 +284,7 @@ def test_a_plane_through_the_feet_of_an_overhang(tmp_path, pole):
     """On an open rail the radial ends of caps are neither rims nor members."""
     plane = {"plane": {"origin": [124, -174, 4849], "normal": [0.05, 0.1, 1.0]}, "keep": [0, 0, 1]}
     data = changed(
-        trimmed({**OVERHANG, "stock": {"max_blank_length": 20_000}}, plane),
+        trimmed({**OVERHANG, "stock": HALL}, plane),
         surface={"pole": pole},
         tolerances={"min_member": 100},
         members={"min_clear": 0.1, "section": {"kind": "plate", "depth": 100, "thickness": 6}},

@@ -8,7 +8,7 @@ from isomould.form.mesh import Family, NodeKind
 from isomould.parts.nodes import classify_nodes
 from isomould.parts.quality import beam_mismatch
 from isomould.parts.settings import CongruenceSettings
-from museum import EDGE_OFFSET_VAULT, VAULT, changed, design, dome, sphere
+from museum import EDGE_OFFSET_VAULT, VAULT, changed, design, dome, sketched, sphere
 
 FINE = {"length": 1e-6, "angle_deg": 1e-6}
 
@@ -143,7 +143,7 @@ class TestOracleF:
 
     def aspect(self, radius: float, nodes: int) -> float:
         """Larger over smaller mean of opposite edges of the panel at the apex."""
-        surface = design(dome(radius, nodes, scale=5.0)).form.surface
+        surface = sketched(dome(radius, nodes, scale=5.0)).form.surface
         i, j = (n // 2 - 1 for n in surface.V.shape[:2])
         a, b, c, d = surface.V[i, j], surface.V[i, j + 1], surface.V[i + 1, j + 1], surface.V[i + 1, j]
         mean = [np.linalg.norm(p - q) + np.linalg.norm(r - s) for p, q, r, s in ((a, b, c, d), (b, c, d, a))]

@@ -15,7 +15,7 @@ from isomould.measure.offsets import (
     make_double_layer,
     vertex_distances,
 )
-from museum import EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere
+from museum import BARE, EDGE_OFFSET_VAULT, SMALL, VAULT, changed, design, sphere
 
 MITRED = changed(VAULT, rail={"ends": "mitred"})
 STATIONS = {**changed(VAULT, surface={"kind": "moulding"}), "rail": {**VAULT["rail"], "divide": {"stations": 12}}}
@@ -74,6 +74,25 @@ def test_what_does_not_exist_is_refused(data, constant, distance, code):
         offset_surface(design(data).form, constant, distance)
 
 
+@pytest.mark.parametrize("constant", ["face", "vertex"])
+def test_the_limit_is_where_the_first_edge_vanishes(constant):
+    """Also where that edge joins the last node of a loop to the first."""
+    rail = {
+        "curve": {"kind": "ellipse", "semi_axes": [9000, 6000]},
+        "divide": {"nodes": 13, "first_deg": 90 + 360 / 13},
+    }
+    form = design(
+        changed(sphere(15, 30), rail=rail, generatrix={"divide": {"nodes": 3}}, surface={"kind": "isogonal"})
+    ).form
+    assert form.surface.rail.lengths.argmin() == 12
+    with pytest.raises(Refused, match=r"E-OFFSET-FLIP.*at which parallel edges flip") as refusal:
+        offset_surface(form, constant, -6000.0)
+    limit = float(refusal.value.limit.removeprefix("nearer than ").removesuffix(" mm"))
+    offset_surface(form, constant, limit + 0.001)
+    with pytest.raises(Refused, match="E-OFFSET-FLIP"):
+        offset_surface(form, constant, limit - 0.001)
+
+
 def test_residual_of_edge_offset_slopes():
     exact, other = (design(data).form for data in (EDGE_OFFSET_VAULT, VAULT))
     residuals = [abs(edge_offset_residual(f.surface.profile.latitude, f.rail.angle)).max() for f in (exact, other)]
@@ -82,7 +101,7 @@ def test_residual_of_edge_offset_slopes():
 
 
 def test_double_layer_is_delivered(tmp_path, project_file):
-    path = project_file(changed(SMALL, deliver={"double_layer": {"offset": "face", "distance": "-0.3 m"}}))
+    path = project_file(changed(SMALL, deliver={**BARE, "double_layer": {"offset": "face", "distance": "-0.3 m"}}))
     folder = isomould.build(path, tmp_path / "out", run=isomould.Run(effort="quick", jobs=1)).folder
     lines = (folder / "model" / "double-layer.obj").read_text(encoding="utf-8").splitlines()
     heads = [line.split()[0] for line in lines]

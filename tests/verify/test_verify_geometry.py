@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from verify_museum import changed, ring, sphere, spoilt, status, vault, with_rail, with_raw
+from verify_museum import changed, product_mesh, ring, sphere, spoilt, status, vault, with_rail, with_raw
 
 from isomould.verify.checks import crossing, nodes, panels, polygons, topology
 from isomould.verify.rules import judge
@@ -112,6 +112,19 @@ def pulled_across(delivery):
     return spoilt(delivery, "mesh", nodes=changed(mesh.nodes, 0, far - mesh.nodes[0]))
 
 
+def in_bisectors(delivery):
+    """The profile measured in the bisecting planes of the rail nodes, and not across its edges (failure mode C4)."""
+    line = delivery.design.generatrix
+    bisected = replace(line, vertices=line.vertices * [np.cos(delivery.design.rail.declared / 2), 1.0])
+    return spoilt(delivery, "mesh", nodes=product_mesh(replace(delivery.design, generatrix=bisected)).nodes)
+
+
+def drifted(delivery):
+    """Every node a little further from its place than the one before it (failure mode C11)."""
+    nodes_ = delivery.mesh.nodes
+    return spoilt(delivery, "mesh", nodes=nodes_ + 1e-7 * np.arange(len(nodes_))[:, None])
+
+
 def high_beams(delivery):
     return with_raw(delivery, member={"depth": 4e4})
 
@@ -152,6 +165,8 @@ FAULTS = [
     ("V15", "vault", moved),
     ("V15", "ring", vertex_moved),
     ("V15", "vault", sheared),
+    ("V15", "vault", in_bisectors),
+    ("V15", "vault", drifted),
 ]
 
 

@@ -8,12 +8,13 @@ from verify_museum import spoilt, status, with_rail, with_raw
 import isomould
 from isomould.verify.checks import nodes, panels, polygons, topology
 from isomould.verify.delivery import Delivery
-from museum import MONGE, changed, write_project
+from museum import BARE, HALL, MONGE, changed, write_project
 
 RULES = (*panels.RULES, *nodes.RULES, *polygons.RULES, *topology.RULES)
 T = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 RING = np.column_stack([5000 * np.cos(T), 4600 * np.sin(T), 300 * np.cos(2 * T)])
 RING[5] += [0.002, 0.004, 0.003]
+FLAT = {"kind": "arc", "span": 5000, "rise": 600}
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +24,8 @@ def built(tmp_path_factory):
     ring = {"curve": {"kind": "polyline", "points": RING.tolist(), "closed": True}}
     arc = {"curve": {"kind": "polyline", "points": MONGE["rail"]["curve"]["points"][:5]}}
     rails = {"vault": arc, "ring": ring}
-    projects = {n: changed(MONGE, rail=rail, generatrix={"divide": {"nodes": 2}}) for n, rail in rails.items()}
+    base = changed(MONGE, generatrix={"curve": FLAT, "divide": {"nodes": 1}}, stock=HALL, deliver=BARE)
+    projects = {n: changed(base, rail=rail) for n, rail in rails.items()}
     run = isomould.Run(effort="quick", jobs=1)
     return {
         name: isomould.build(write_project(folder / f"{name}.toml", data), folder / name, run=run)

@@ -241,7 +241,7 @@ def _arch(settings: ParabolaSettings | CatenarySettings | SineSettings, field: s
         return Draft((shapes.sine(*wave),), closed=False)
     _refuse_flat(settings.rise, field)
     shape = shapes.parabola if isinstance(settings, ParabolaSettings) else shapes.catenary
-    return Draft((shape(settings.span, settings.rise),), closed=False)
+    return Draft((shape(settings.span, settings.rise),), False, _hanging(settings.rise, field))
 
 
 def _round(settings: ArcSettings | CircleSettings | EllipseSettings, field: str) -> Draft:
@@ -264,7 +264,7 @@ def _chord_arc(settings: ArcSettings, field: str) -> Draft:
     span, rise = settings.span or settings.chord or 0.0, settings.rise or 0.0
     _refuse_flat(rise, field)
     end = np.array([span / 2, 0.0])
-    return Draft((shapes.bulged(-end, end, -2 * rise / span),), closed=False)
+    return Draft((shapes.bulged(-end, end, -2 * rise / span),), False, _hanging(rise, field))
 
 
 def _range(start_deg: float | None, end_deg: float | None, field: str) -> tuple[tuple[float, float], bool]:
@@ -358,6 +358,12 @@ def _refuse_count(key: str, found: int, limit: int, field: str) -> None:
         limit=f"exactly {limit}",
         way_out=f"Give {limit} {key}, or leave them out.",
     )
+
+
+def _hanging(rise: float, field: str) -> tuple[Note, ...]:
+    """Note an arch that hangs: where a sign slipped in, everything else looks plausible."""
+    text = f"{rise:g} mm: the curve hangs below the line between its ends"
+    return (Note("W-CURVE-HANGS", f"{field}.rise", text),) if rise < 0 else ()
 
 
 def _refuse_flat(rise: float, field: str) -> None:

@@ -23,6 +23,9 @@ from isomould.form.spatial import SpatialPolygon, divide_in_space
 from isomould.form.surface import Surface, make_surface, refuse_flips
 from isomould.form.survey import division_notes
 
+_COARSE_DEG, _ROUNDING_DEG = 30.0, 1e-9
+"""A rail that turns by more at a node is noted (failure mode B9); twelve nodes round a circle turn by 30°."""
+
 
 class RailInPlane(NamedTuple):
     """A rail's oriented curve, the plane that it lies in, and its open ends (None: as the kind has them)."""
@@ -79,7 +82,8 @@ def make_form(
     rail_request, generatrix_request = requests
     rail, frame = _make_rail(drawn, rail_request, settings)
     generatrix, parallels, caps, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
-    refuse_size(len(rail.lengths) * int(np.count_nonzero(~generatrix.gap)), rail_request.limits)
+    rows = int(np.count_nonzero(~generatrix.gap)) + len(caps.rows)
+    refuse_size(len(rail.lengths) * rows + len(caps.lids), rail_request.limits)
     for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
         _refuse_deviation(polygon, request)
     surface = make_surface(frame, make_profile(generatrix, parallels, caps))
@@ -153,9 +157,13 @@ def _refuse_crossings(rail: CurvePolygon | SpatialPolygon, generatrix: CurvePoly
 
 def _turning_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:
     steepest = float(np.degrees(np.nan_to_num(np.abs(rail.turning)).max()))
-    if steepest <= 30.0:
+    if steepest <= _COARSE_DEG + _ROUNDING_DEG:
         return ()
-    return (Note("W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than 30°"),)
+    return (
+        Note(
+            "W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than {_COARSE_DEG:g}°"
+        ),
+    )
 
 
 def _flat_notes(rail: CurvePolygon, surface: Surface, depth: float) -> tuple[Note, ...]:

@@ -172,7 +172,7 @@ def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurveP
     refuse_not_simple(total, request.field)
     _refuse_several(curve, request)
     walk = from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
-    if request.treatment.inflections in _OWN_TANGENTS and len(arcs(walk).sign) > 1:
+    if _begins_at_inflections(request) and len(arcs(walk).sign) > 1:
         walk = _from_inflection(walk)
     lattice = EvenLattice(float(walk.theta0[0]), 2 * np.pi / _closed_count(arcs(turns), request))
     lattices = _lattices(curve, walk, lattice, request)
@@ -181,6 +181,12 @@ def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurveP
     edges = edges if walk.closed else edges.take(np.arange(len(edges.index) - 1))
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     return closed_polygon(curve, edges, float(np.sign(total)) * 2 * np.pi, request.field)
+
+
+def _begins_at_inflections(request: Request) -> bool:
+    """Whether a closed curve is divided from an inflection tangent on, and not from a direction that was given."""
+    way = request.treatment.inflections
+    return way in _OWN_TANGENTS or (way == "refuse" and request.divide.first_deg is None)
 
 
 def _closed_count(runs: Arcs, request: Request) -> int:

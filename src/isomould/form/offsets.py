@@ -32,7 +32,7 @@ def offset_surface(form: Form, constant: Constant, distance: float, field: str =
     field_of = replace(profile, a=a, b=b, d=profile.d + distance * a, z=profile.z + distance * b)
     moved = replace(field_of, lengths=profile.lengths + distance * stretch(field_of))
     result = make_surface(surface.rail, moved)
-    _refuse_flip(surface, result, constant, distance, field)
+    _refuse_flip(surface, result, distance, field)
     return result
 
 
@@ -96,15 +96,30 @@ def _refuse_no_vertex_offset(form: Form, field: str) -> None:
         )
 
 
-def _refuse_flip(surface: Surface, moved: Surface, constant: str, distance: float, field: str) -> None:
-    steps = [
-        np.einsum("ijk,ijk->ij", np.diff(moved.V, axis=axis), np.diff(surface.V, axis=axis)).min() for axis in (0, 1)
-    ]
-    if min(steps) <= 0:
-        raise Refused(
-            "E-OFFSET-FLIP",
-            f"{field}.distance",
-            f"{distance:g} mm, at which {('generatrix', 'parallel')[int(np.argmin(steps))]} edges flip",
-            f"a smaller {constant} offset",
-            "Lower the distance, or offset to the other side.",
-        )
+def _refuse_flip(surface: Surface, moved: Surface, distance: float, field: str) -> None:
+    """Refuse offsets at which an edge vanishes or flips, naming the distance at which the first one does."""
+    closed = surface.profile.closed, surface.rail.closed
+    shares = [_share(*(_edges(each.V, axis, closed[axis]) for each in (surface, moved))) for axis in (0, 1)]
+    if min(shares) > 1:
+        return
+    family = ("generatrix", "parallel")[int(np.argmin(shares))]
+    raise Refused(
+        "E-OFFSET-FLIP",
+        f"{field}.distance",
+        f"{distance:g} mm, at which {family} edges flip",
+        f"nearer than {distance * min(shares):.3f} mm",
+        "Lower the distance, or offset to the other side.",
+    )
+
+
+def _edges(nodes: Floats, axis: int, closed: bool) -> Floats:
+    """Edges of nodes (m, n, 3) along an axis, that from the last to the first with them where it is closed."""
+    edges = np.roll(nodes, -1, axis=axis) - nodes
+    return edges if closed else np.delete(edges, -1, axis=axis)
+
+
+def _share(edges: Floats, moved: Floats) -> float:
+    """Share of the way from edges to moved ones, parallel to them, at which the first of them vanishes."""
+    whole, left = (np.einsum("ijk,ijk->ij", edges, each) for each in (edges, moved))
+    shrinking = left < whole
+    return float((whole[shrinking] / (whole - left)[shrinking]).min(initial=np.inf))

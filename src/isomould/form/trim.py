@@ -113,7 +113,9 @@ def _cut_once(mesh: Mesh, cut: Cut, min_member: float) -> tuple[Mesh, list[Note]
     snapped = _near(mesh, pairs, side, height, min_member)
     side[snapped] = 0
     if not (np.maximum.reduceat(side[mesh.faces], mesh.face_offsets[:-1]) > 0).any():
-        found, way_out = "nothing of the surface is left", "Move the plane, or keep its other side."
+        found = f"nothing of the surface is left: its outermost node lies at {height.max():.3f} mm"
+        found += " from the plane (positive: on the side that is kept)"
+        way_out = "Move the plane, or keep its other side."
         raise Refused("E-TRIM-EMPTY", cut.field, found, "at least one panel", way_out)
     crossings = _cross(mesh, pairs[side[pairs].prod(axis=1) < 0], height, cut, min_member)
     clipped = _clip_faces(_with_supports(mesh, crossings, side), cut.number, side, crossings.between)
@@ -290,7 +292,9 @@ def _refuse_flat(mesh: Mesh, pairs: Ints, slide: Floats, cut: Cut, min_member: f
     if len(slide) and not slide.max() <= min_member:
         i, j = mesh.node_ij[pairs[np.argmax(slide), 0]].tolist()
         found = f"it meets another plane at a flat angle beside node ({i}, {j}), which is a support of that plane"
-        raise Refused("E-TRIM-CORNER", cut.field, found, "planes that meet clearly", "Move one of the planes a little.")
+        found += f": their corner would lie {slide.max():.3f} mm off"
+        limit = f"planes that meet within tolerances.min_member = {min_member:g} mm of the rim"
+        raise Refused("E-TRIM-CORNER", cut.field, found, limit, "Move one of the planes a little.")
 
 
 def _refuse_bent(mesh: Mesh, cut: Cut) -> None:

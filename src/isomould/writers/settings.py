@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from isomould.parts.strips import Along
 from isomould.settings import Settings
@@ -12,11 +12,18 @@ LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]
 
 
+def _apart(distance: float) -> float:
+    if distance == 0:
+        message = "must be other than 0: the layers would lie in one place"
+        raise ValueError(message)
+    return distance
+
+
 class DoubleLayerSettings(Settings):
     """A second layer with members parallel to the first one's: what keeps the distance, and which side it lies on."""
 
     offset: Literal["edge", "face", "vertex"]
-    distance: Length
+    distance: Annotated[Length, AfterValidator(_apart)]
     """Positive to the outside."""
 
 
