@@ -6,21 +6,12 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from isomould.arrays import Floats, round_um
-from isomould.documents.drawing import CutDrawing, Entity, Label, Layer, Polyline, chords, signed_area
+from isomould.arrays import Floats
+from isomould.documents.drawing import Circle, CutDrawing, Entity, Label, Layer, Polyline, signed_area
+from isomould.documents.engraving import TEXT_HEIGHTS, engrave, free_area, place_at_start, place_in_middle
 from isomould.documents.orientation import point_to_side
-from isomould.documents.stroke_font import text_strokes, text_width
-
-TEXT_HEIGHTS = (20.0, 14.0, 10.0, 7.0, 5.0, 3.5, 2.5, 2.0)
-"""Heights of engraved marks, tallest first (ISO 3098 steps), mm."""
-
-_MARGIN = 0.5
-"""Clear distance of the mark from the outline, in text heights."""
 
 _INFO_HEIGHT = 10.0
-
-_TURNS = (np.array([[1.0, 0.0], [0.0, 1.0]]), np.array([[0.0, 1.0], [-1.0, 0.0]]))
-"""A mark stands level or turned by 90°."""
 
 Placement = tuple[str, str, Floats]
 """Mark, location and the placed outline (n, 2), mm."""
@@ -30,10 +21,11 @@ def part_drawing(
     mark: str,
     outline: Floats,
     bulges: Floats | None = None,
-    inner: Sequence[Polyline] = (),
+    inner: Sequence[Polyline | Circle] = (),
     note: str = "",
     orientation: str | None = None,
     reserved: Sequence[Floats] = (),
+    direction: bool = False,
 ) -> CutDrawing:
     """Draw one part in its own frame: contour, inner contours, engraved mark and a line of information.
 
@@ -43,21 +35,24 @@ def part_drawing(
     outline : (n, 2) float, mm
         Counter-clockwise, first vertex not repeated.
     bulges : (n,) float, optional
-    inner : sequence of Polyline
-        Closed contours to cut inside, in either direction; CUT_INNER is clockwise by definition.
+    inner : sequence of Polyline or Circle
+        Closed contours to cut inside, in either direction, CUT_INNER is clockwise by definition; holes to drill.
     note : str
         What stands after the mark in the information below the part.
     orientation : str, optional
         Engrave an arrow to the outline's first side, and this text beside it.
     reserved : sequence of (k, 2) float, mm
         Polygons that are kept free of the mark.
+    direction : bool
+        Engrave the mark at the start of the part, with an arrow to its end (fabrication, Marks and locations).
     """
     contour = Polyline("CUT", outline, True, bulges)
-    holes = [_directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
+    holes = [hole if isinstance(hole, Circle) else _directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
     left, bottom = outline.min(axis=0)
     info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
-    free = shapely.Polygon(chords(contour), [chords(hole) for hole in holes])
-    free = free.difference(shapely.union_all([shapely.Polygon(taken) for taken in reserved]))
+    free = free_area(contour, holes).difference(shapely.union_all([shapely.Polygon(taken) for taken in reserved]))
+    if direction:
+        return CutDrawing((contour, *holes, *engrave(place_at_start(mark, outline, free)), info))
     return CutDrawing((contour, *holes, *_engraved(mark, free, outline, orientation), info))
 
 
@@ -116,33 +111,6 @@ def _engraved(text: str, free: BaseGeometry, outline: Floats, orientation: str |
     """Engrave the mark, and before it the orientation if there is one."""
     arrow = [] if orientation is None else point_to_side(outline, free, orientation)
     if not arrow:
-        return _engraving(text, free)
+        return engrave(place_in_middle(text, free))
     taken = shapely.MultiPoint(np.concatenate([stroke.points for stroke in arrow])).envelope
-    return [*arrow, *_engraving(text, free.difference(taken))]
-
-
-def _engraving(text: str, free: BaseGeometry) -> list[Polyline]:
-    """Engrave text at the tallest height that fits the free area; nothing when even the lowest does not."""
-    middle = round_um(np.array(_middle(free).coords[0]))
-    lines = ((height, turn) for height in TEXT_HEIGHTS for turn in _TURNS)
-    found = next((line for line in lines if free.contains(_box(text, middle, *line))), None)
-    return [] if found is None else _strokes(text, middle, *found)
-
-
-def _middle(free: BaseGeometry) -> shapely.Point:
-    return free.centroid if free.contains(free.centroid) else free.representative_point()
-
-
-def _box(text: str, middle: Floats, height: float, turn: Floats) -> shapely.Polygon:
-    """Box of a line of text about its middle, with the margin around it."""
-    half = np.abs((_size(text, height) / 2 + _MARGIN * height) @ turn)
-    return shapely.box(*(middle - half), *(middle + half))
-
-
-def _size(text: str, height: float) -> Floats:
-    return np.array([text_width(text, height), height])
-
-
-def _strokes(text: str, middle: Floats, height: float, turn: Floats) -> list[Polyline]:
-    centred = (stroke - _size(text, height) / 2 for stroke in text_strokes(text, height))
-    return [Polyline("ENGRAVE", round_um(stroke @ turn + middle), closed=False) for stroke in centred]
+    return [*arrow, *engrave(place_in_middle(text, free.difference(taken)))]

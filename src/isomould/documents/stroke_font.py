@@ -1,4 +1,4 @@
-"""A single-stroke font for engraved marks: A–Z, 0–9 and - . / on a grid of 4 by 6.
+"""A single-stroke font for engraved marks: A–Z, 0–9, - . / and an arrow on a grid of 4 by 6.
 
 Every glyph is a list of strokes; a stroke is a chain of grid points, written as two digits x y. No
 stroke runs over another, so that a machine engraves every line once.
@@ -12,6 +12,9 @@ from isomould.errors import Refused
 _CAP = 6
 _ADVANCE = 6
 _WIDTH = 4
+
+ARROW = ">"
+"""Drawn as an arrow to the right."""
 
 _GLYPHS = {
     "A": "00 26 40, 12 32",
@@ -53,6 +56,7 @@ _GLYPHS = {
     "-": "13 33",
     ".": "10 11",
     "/": "00 46",
+    ARROW: "03 43, 25 43 21",
     " ": "",
 }
 _STROKES = {
@@ -91,5 +95,5 @@ def text_strokes(text: str, height: float) -> list[Floats]:
 
 def _glyph(character: str) -> tuple[Floats, ...]:
     if character not in _STROKES:
-        raise Refused("E-OUT-03", "engraved mark", repr(character), "A-Z 0-9 - . /", "Choose another mark.")
+        raise Refused("E-OUT-03", "engraved mark", repr(character), "A-Z 0-9 - . / >", "Choose another mark.")
     return _STROKES[character]
