@@ -1,0 +1,37 @@
+"""Members for machines: their drawings, and what their NC1 files say."""
+
+import numpy as np
+
+from isomould.documents.cut_sheets import part_drawing
+from isomould.documents.drawing import CutDrawing
+from isomould.documents.holes import front_holes
+from isomould.documents.nc_parts import Blank, MassUnit, NcPart, nc_part, plate_profile
+from isomould.parts.members import MemberParts, MemberShape
+from isomould.parts.settings import MemberSettings
+
+
+def member_drawing(mark: str, shape: MemberShape) -> CutDrawing:
+    """Draw one member: contour, holes of its front, and the mark at its start with an arrow to its end."""
+    return part_drawing(mark, shape.outline, inner=front_holes(shape.holes), direction=True)
+
+
+def member_nc_parts(members: MemberParts, asked: MemberSettings, unit: MassUnit) -> tuple[NcPart, ...]:
+    """Give the NC1 file of every member class, in the order of the marks."""
+    section = asked.section
+    profile = plate_profile(section.name, section.depth, section.thickness, asked.density, unit)
+    rows = zip(members.marks, members.classes.quantity.tolist(), members.shapes, strict=True)
+    return tuple(nc_part(_blank(mark, quantity, shape, asked.grade), profile) for mark, quantity, shape in rows)
+
+
+def _blank(mark: str, quantity: int, shape: MemberShape, grade: str) -> Blank:
+    return Blank(mark, quantity, grade, shape.outline, holes=shape.holes, notes=_notes(shape), along=True)
+
+
+def _notes(shape: MemberShape) -> tuple[str, ...]:
+    """Long and short points along top and bottom, the end cuts, and how the part lies."""
+    start, end = np.round(np.degrees(shape.end_angle), 2) + 0.0
+    return (
+        f"TOP {shape.top_length:.2f} BOTTOM {shape.bottom_length:.2f}",
+        f"END CUTS {start:.2f} {end:.2f} DEG, IN CONTOUR",
+        "START LEFT, OUTSIDE UP",
+    )
