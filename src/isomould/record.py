@@ -46,6 +46,8 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         },
         "layers": dict(project.deliver.layers),
         "drawings": project.deliver.drawings,
+        "dxf": list(project.deliver.dxf),
+        "nc1": _nc1(design),
         "counts": _counts(design),
         "shapes": [shape.slug for shape in project.shapes],
     }
@@ -147,6 +149,12 @@ def _base_plate(asked: BasePlateSettings | None) -> dict[str, Any] | None:
         "edge_distance_mm": asked.edge_distance,
         "clearance_mm": asked.clearance,
     }
+
+
+def _nc1(design: Design) -> dict[str, str]:
+    """Order, drawing and phase of NC1 files, and the unit of their mass."""
+    info, unit = design.project.project, design.project.deliver.nc1_mass or "kg/m"
+    return {"order": info.number, "drawing": info.drawing, "phase": info.phase, "mass": unit}
 
 
 def _panel(design: Design) -> dict[str, Any]:

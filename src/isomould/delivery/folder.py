@@ -4,7 +4,7 @@ from pathlib import Path
 
 from isomould.delivery.drawings import write_drawings
 from isomould.delivery.goods import Delivery
-from isomould.delivery.machine import write_machine_files, write_setting_out, write_strips
+from isomould.delivery.machine import write_machine_files, write_nc1_files, write_setting_out, write_strips
 from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
 from isomould.delivery.schedules import write_bars, write_schedules
@@ -16,10 +16,11 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write all files but certificate and manifest into an empty folder."""
     write_model(folder / "model", delivery)
     write_machine_files(folder, delivery, spread)
+    write_nc1_files(folder / "members", delivery)
     write_nodes(folder / "nodes", delivery)
     write_part_solids(folder, delivery)
     write_schedules(folder, delivery)
     write_bars(folder / "bars" / "bars.csv", delivery)
     write_drawings(folder / "drawings", delivery, spread)
-    write_strips(folder / "strips", delivery)
+    write_strips(folder, delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

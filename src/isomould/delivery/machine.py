@@ -6,24 +6,29 @@ from pathlib import Path
 from isomould.arrays import Floats
 from isomould.delivery.goods import Delivery
 from isomould.documents.cut_sheets import part_drawing, sheet_drawing
-from isomould.documents.drawing import Layer
+from isomould.documents.drawing import CutDrawing
+from isomould.documents.member_files import member_drawing, member_nc_parts
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
+from isomould.parts.members import MemberShape
 from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
+from isomould.writers.nc1 import NcOrder, write_nc1
+from isomould.writers.settings import DeliverSettings
 
 
 @dataclass(frozen=True, eq=False)
 class _PartFile:
-    """A part file that is to be written."""
+    """A part file that is to be written: the outline of a panel, or a member."""
 
-    path: Path
-    outline: Floats
-    layers: dict[Layer, str]
+    folder: Path
+    name: str
+    part: Floats | MemberShape
+    asked: DeliverSettings
     orientation: str | None
 
 
@@ -31,30 +36,27 @@ class _PartFile:
 class _SheetFile:
     """A cut sheet that is to be written."""
 
-    path: Path
+    folder: Path
     sheet: Sheet
     placements: tuple[Placement, ...]
-    layers: dict[Layer, str]
+    asked: DeliverSettings
     orientation: str | None
 
 
 def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
-    kit, layers = delivery.design.kit, delivery.design.project.deliver.layers
+    kit, asked = delivery.design.kit, delivery.design.project.deliver
     orientation = _orientation(delivery.design.project.panels)
-    panels = zip(kit.panels.marks, kit.panels.outlines, strict=True)
-    members = zip(kit.members.marks, kit.members.shapes, strict=True)
-    files = [_PartFile(folder / "panels" / f"{mark}.dxf", outline, layers, orientation) for mark, outline in panels]
-    files += [_PartFile(folder / "members" / f"{mark}.dxf", shape.outline, layers, None) for mark, shape in members]
-    spread(_write_part, files)
+    parts: dict[str, Floats | MemberShape] = {
+        f"panels/{mark}": outline for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
+    }
+    parts |= {f"members/{mark}": shape for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)}
+    spread(_write_part, [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()])
     layout = delivery.cutting.sheets
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
     for placement in layout.placements:
         on[placement.sheet].append(placement)
-    sheets = [
-        _SheetFile(folder / "sheets" / f"{s.id}.dxf", s, tuple(on[s.id]), layers, orientation) for s in layout.sheets
-    ]
-    spread(_write_sheet, sheets)
+    spread(_write_sheet, [_SheetFile(folder, s, tuple(on[s.id]), asked, orientation) for s in layout.sheets])
     write_bytes(folder / "sheets" / "nesting.json", layout_to_json(layout).encode())
 
 
@@ -65,19 +67,42 @@ def _orientation(panels: PanelSettings) -> str | None:
 
 
 def _write_part(file: _PartFile) -> None:
-    write_dxf(file.path, part_drawing(file.path.stem, file.outline, orientation=file.orientation), file.layers)
+    _write_versions(file.folder, file.name, _part_drawing(file), file.asked)
+
+
+def _part_drawing(file: _PartFile) -> CutDrawing:
+    mark = file.name.rpartition("/")[2]
+    if isinstance(file.part, MemberShape):
+        return member_drawing(mark, file.part)
+    return part_drawing(mark, file.part, orientation=file.orientation)
 
 
 def _write_sheet(file: _SheetFile) -> None:
     placed = [(str(p.id), str(p.location), p.points) for p in file.placements]
     drawing = sheet_drawing(file.sheet.width, file.sheet.height, placed, orientation=file.orientation)
-    write_dxf(file.path, drawing, file.layers)
+    _write_versions(file.folder, f"sheets/{file.sheet.id}", drawing, file.asked)
+
+
+def _write_versions(folder: Path, name: str, drawing: CutDrawing, asked: DeliverSettings) -> None:
+    """Write a drawing in every version asked for; the twins of the folder's files lie in `r12/`."""
+    for version in asked.dxf:
+        place = folder / "r12" if version == "R12" else folder
+        write_dxf(place / f"{name}.dxf", drawing, asked.layers, version)
+
+
+def write_nc1_files(folder: Path, delivery: Delivery) -> None:
+    """Write the NC1 files of the members beside their drawings."""
+    project, members = delivery.design.project, delivery.design.kit.members
+    info, unit = project.project, project.deliver.nc1_mass or "kg/m"
+    order = NcOrder(info.number, info.drawing, info.phase)
+    for part in member_nc_parts(members, project.members, unit):
+        write_nc1(folder / f"{part.mark}.nc1", part, order)
 
 
 def write_strips(folder: Path, delivery: Delivery) -> None:
     """Write the unrolled strips that the project asks for."""
     for strip in delivery.strips:
-        write_dxf(folder / f"{strip.name}.dxf", strip_drawing(strip), delivery.design.project.deliver.layers)
+        _write_versions(folder, f"strips/{strip.name}", strip_drawing(strip), delivery.design.project.deliver)
 
 
 def write_setting_out(path: Path, delivery: Delivery) -> None:

@@ -41,4 +41,7 @@ class ProjectInfo(Settings):
     author: Text = ""
     logo: Text = ""
     """A PNG file beside the project file."""
+    drawing: Text = ""
+    """Drawing number of the parts, for the machine files."""
+    phase: Text = ""
     date: Annotated[datetime.date | None, BeforeValidator(_drawn_up)] = None

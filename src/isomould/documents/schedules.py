@@ -126,10 +126,11 @@ def sheet_of(book: str, number: int) -> str:
     return f"drawings/{book}.pdf#page={number + 1}"
 
 
-def _files(kind: str, marks: Sequence[str], *, drawn: bool) -> list[str]:
-    """Name the files of every class: its machine file, and its sheet where there are drawings."""
+def _files(kind: str, marks: Sequence[str], endings: Sequence[str] = ("dxf",), *, drawn: bool) -> list[str]:
+    """Name the files of every class: its machine files, and its sheet where there are drawings."""
     sheets = [[sheet_of(kind, k)] if drawn else [] for k in range(len(marks))]
-    return [";".join([f"{kind}/{mark}.dxf", *sheet]) for mark, sheet in zip(marks, sheets, strict=True)]
+    made = [[f"{kind}/{mark}.{ending}" for ending in endings] for mark in marks]
+    return [";".join(files + sheet) for files, sheet in zip(made, sheets, strict=True)]
 
 
 def _arm_columns(kit: Kit, section: str) -> Columns:
@@ -207,7 +208,7 @@ def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
         "set_back_end_mm": [shape.set_back[1] for shape in shapes],
         "mass_kg": [shape.area * thickness * asked.density * _KG_PER_MM3 for shape in shapes],
         "coated_area_m2": [(2 * shape.area + shape.perimeter * thickness) / 1e6 for shape in shapes],
-        "files": _files("members", members.marks, drawn=drawn),
+        "files": _files("members", members.marks, ("dxf", "nc1"), drawn=drawn),
     }
 
 

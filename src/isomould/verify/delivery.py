@@ -14,6 +14,7 @@ from isomould.verify.read.dxf_texts import read_dxf_texts
 from isomould.verify.read.glb import Model, read_glb
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
+from isomould.verify.read.nc1 import NcFile, read_nc1
 from isomould.verify.read.pdf import Book, read_pdf
 from isomould.verify.read.solid import Solid, read_3mf
 from isomould.verify.read.tables import Table, pairs, read_table
@@ -112,6 +113,21 @@ class Delivery:
         """The texts of the drawings' DXF files by name."""
         paths = self.files("drawings", "dxf")
         return {path.stem: found for path, found in zip(paths, self.spread(read_dxf_texts, paths), strict=True)}
+
+    @cached_property
+    def twins(self) -> dict[str, dict[str, Drawing]]:
+        """The R12 twins of part files, cut sheets and strips by folder and name."""
+        return {name: self.drawings(f"r12/{name}") for name in ("panels", "members", "sheets", "strips")}
+
+    @cached_property
+    def strips(self) -> dict[str, Drawing]:
+        """The unrolled strips by name."""
+        return self.drawings("strips")
+
+    @cached_property
+    def nc1(self) -> dict[str, NcFile]:
+        """The NC1 files of the members by mark."""
+        return {path.stem: read_nc1(path) for path in self.files("members", "nc1")}
 
     @cached_property
     def solids(self) -> dict[str, Solid]:

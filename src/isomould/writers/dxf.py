@@ -6,7 +6,6 @@ from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from functools import singledispatch
 from pathlib import Path
-from typing import Literal
 
 from ezdxf import options  # pyright: ignore[reportPrivateImportUsage]
 from ezdxf.document import Drawing
@@ -17,8 +16,7 @@ from isomould.documents.drawing import Circle, CutDrawing, Entity, Label, Layer,
 from isomould.documents.drawing_checks import check_drawing
 from isomould.errors import Refused
 from isomould.writers.disk import write_bytes
-
-Version = Literal["R2010", "R12"]
+from isomould.writers.settings import Version
 
 _MILLIMETRES = 4
 _METRIC = 1

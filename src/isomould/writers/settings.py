@@ -4,12 +4,23 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from isomould.documents.nc_parts import MassUnit
 from isomould.parts.strips import Along
 from isomould.settings import Settings
 from isomould.units import Flag, Length
 
 LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]
+
+
+Version = Literal["R2010", "R12"]
+
+
+def _with_ours(versions: tuple[Version, ...]) -> tuple[Version, ...]:
+    if "R2010" not in versions or len(set(versions)) < len(versions):
+        message = 'R2010 is always written, once; R12 beside it on request: ["R2010", "R12"]'
+        raise ValueError(message)
+    return versions
 
 
 def _apart(distance: float) -> float:
@@ -32,6 +43,10 @@ class DeliverSettings(Settings):
 
     layers: dict[Layer, LayerName] = Field(default_factory=dict[Layer, str])
     """Other names for the layers of the machine DXF."""
+    dxf: Annotated[tuple[Version, ...], AfterValidator(_with_ours)] = ("R2010",)
+    """Versions of the machine DXF; R12 twins lie in `r12/`."""
+    nc1_mass: MassUnit | None = None
+    """What line 15 of NC1 files holds; by default kg/m for members and kg/m² for plates."""
     strips: tuple[Along, ...] = ()
     """Strips to unroll: between neighbouring generatrices, between neighbouring parallels."""
     solids: tuple[Literal["members", "panels"], ...] = ()

@@ -31,6 +31,7 @@ def machine_files(delivery: Delivery) -> Measured:
     """Read every drawing strictly and list what a machine would trip over."""
     folders = {"panels": delivery.panels, "members": delivery.members, "sheets": delivery.sheets}
     folders |= {name: delivery.drawings(name) for name in ("nodes", ".")}
+    folders |= {f"r12/{name}": found for name, found in delivery.twins.items()}
     named = [(f"{folder}/{d.name}.dxf", d) for folder, found in folders.items() for d in found.values()]
     problems = [f"{path}: {fault}" for path, drawing in named for fault in drawing_faults(drawing)]
     return faults(len(named), problems + _missing(delivery))
@@ -48,7 +49,7 @@ def _missing(delivery: Delivery) -> list[str]:
 
 def drawing_faults(drawing: Drawing) -> list[str]:
     """List what is wrong with one drawing."""
-    found = [] if drawing.units == 4 else [f"$INSUNITS is {drawing.units}, not 4 (mm)"]
+    found = [] if drawing.units == 4 or drawing.version == "AC1009" else [f"$INSUNITS is {drawing.units}, not 4 (mm)"]
     found += [f"audit: {finding}" for finding in drawing.findings] + _strangers(drawing) + _entity_faults(drawing)
     for outline in drawing.outlines:
         found += [f"{fault} on {outline.layer}" for fault in outline_faults(outline)]
@@ -106,6 +107,33 @@ def _segments(outline: Outline) -> Floats:
     ordered = np.where(swap[:, None], np.hstack((end, start)), np.hstack((start, end)))
     rows = np.column_stack((ordered, np.where(swap, -outline.bulges, outline.bulges)))
     return rows if outline.closed else rows[:-1]
+
+
+def twins(delivery: Delivery) -> Measured:
+    """Drawings of R12 against those of R2010: no file missing, the same outlines, circles and texts, mm."""
+    if "R12" not in delivery.design.raw.get("dxf", []):
+        raise NotApplicable("no R12 twins asked for")
+    ours = {name: getattr(delivery, name) for name in delivery.twins}
+    off = {f"{name}/{k}": _apart(ours[name].get(k), delivery.twins[name].get(k))
+           for name in ours for k in sorted(ours[name].keys() | delivery.twins[name].keys())}  # fmt: skip
+    return worst_of(list(off.values()), list(off))
+
+
+def _apart(first: Drawing | None, second: Drawing | None) -> float:
+    """Give the largest difference of two drawings' coordinates, infinite where they hold different things."""
+    if first is None or second is None or second.version != "AC1009" or _names(first) != _names(second):
+        return np.inf
+    pairs = zip(first.outlines, second.outlines, strict=True)
+    others = zip(first.entities, second.entities, strict=True)
+    off = [abs(np.column_stack((a.points - b.points, a.bulges - b.bulges))).max() for a, b in pairs]
+    off += [abs(np.array([*np.ravel(a.points), a.radius]) - [*np.ravel(b.points), b.radius]).max() for a, b in others]
+    return float(np.max(off, initial=0.0))
+
+
+def _names(drawing: Drawing) -> list[tuple[str, str, int, bool]]:
+    """Say what a drawing holds, in order."""
+    found = [("POLYLINE", outline.layer, len(outline.points), outline.closed) for outline in drawing.outlines]
+    return found + [(entity.kind, entity.layer, len(entity.points), False) for entity in drawing.entities]
 
 
 def panel_areas(delivery: Delivery) -> Measured:
@@ -200,5 +228,6 @@ RULES = (
     Rule("V40b", "areas of panel drawings = schedule", RELATIVE, "relative", panel_areas),
     Rule("V40c", "sides, diagonals and boxes of panel drawings = schedule", 0.0005, "mm", panel_sizes),
     Rule("V40d", "lengths of member drawings = schedule", 0.0005, "mm", member_sizes),
+    Rule("V40f", "R12 drawings = R2010 drawings", RELATIVE, "mm", twins),
     Rule("V40e", "outlines of trimmed panels = schedule", RELATIVE, "mm", panel_outlines),
 )

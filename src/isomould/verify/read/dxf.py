@@ -15,7 +15,7 @@ _CAP = 200_000_000
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """A lightweight polyline: `points` (n, 2) mm, `bulges` (n,), one per segment."""
+    """A flat polyline, lightweight or of the old kind: `points` (n, 2) mm, `bulges` (n,), one per segment."""
 
     layer: str
     points: Floats
@@ -42,6 +42,7 @@ class Drawing:
     findings: tuple[str, ...]
     outlines: tuple[Outline, ...]
     entities: tuple[Entity, ...]
+    version: str = "AC1024"
 
 
 @refusing
@@ -52,9 +53,11 @@ def read_dxf(path: Path) -> Drawing:
     audit = document.audit()
     found = tuple(str(entry.message) for entry in (*audit.errors, *audit.fixes))
     space = list(document.modelspace())
-    outlines = tuple(_outline(entity) for entity in space if entity.dxftype() == "LWPOLYLINE")
-    others = tuple(_entity(entity) for entity in space if entity.dxftype() != "LWPOLYLINE")
-    return Drawing(path.stem, int(document.header.get("$INSUNITS", 0)), found, outlines, others)
+    read = _OUTLINES.get(document.dxfversion, _OUTLINES["AC1024"])
+    outlines = tuple(read[1](entity) for entity in space if entity.dxftype() == read[0])
+    others = tuple(_entity(entity) for entity in space if entity.dxftype() != read[0])
+    units = int(document.header.get("$INSUNITS", 0))
+    return Drawing(path.stem, units, found, outlines, others, document.dxfversion)
 
 
 def _refuse_broken(path: Path) -> None:
@@ -73,6 +76,19 @@ def _outline(entity: Any) -> Outline:
         message = f"polyline {entity.dxf.handle} at z = {height} with extrusion {up}"
         raise Unreadable(message)
     return Outline(entity.dxf.layer, rows[:, :2], rows[:, 2], bool(entity.closed))
+
+
+def _old_outline(entity: Any) -> Outline:
+    """Read a polyline of R12: vertices of their own, each with a place in space."""
+    rows = np.array([(*v.dxf.location.xyz, v.dxf.bulge) for v in entity.vertices], dtype=np.float64).reshape(-1, 4)
+    if not entity.is_2d_polyline or rows[:, 2].any():
+        message = f"polyline {entity.dxf.handle} is not flat on z = 0"
+        raise Unreadable(message)
+    return Outline(entity.dxf.layer, rows[:, :2], rows[:, 3], bool(entity.is_closed))
+
+
+_OUTLINES = {"AC1009": ("POLYLINE", _old_outline), "AC1024": ("LWPOLYLINE", _outline)}
+"""The kind of polyline that a version has, and how it is read."""
 
 
 def _entity(entity: Any) -> Entity:
