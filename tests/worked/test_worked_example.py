@@ -7,13 +7,17 @@ from pathlib import Path
 import pytest
 import worked_by_hand as hand
 import worked_rows as rows
+from worked_nc1 import NUMBER as ORDER
+from worked_nc1 import nc1_file
 from worked_steps import steps
 
 from isomould.design import kit_settings, make_design
+from isomould.documents.member_files import member_nc_parts
 from isomould.documents.schedules import part_tables
 from isomould.documents.table import cells
 from isomould.parts.solid import make_solids
 from isomould.project.load import load_project
+from isomould.writers.nc1 import NcOrder, nc1_text
 from museum import TEMPLATES
 
 TEMPLATE = TEMPLATES / "barrel-vault.toml"
@@ -26,12 +30,17 @@ NESTED = {"bar", "position_mm", "sheet", "x_mm", "y_mm", "rotation_deg", "turned
 
 
 @pytest.fixture(scope="module")
-def schedules() -> dict[str, list[dict]]:
-    """Rows of the program's tables by name."""
+def design():
+    """The program's design of the template."""
     loaded = load_project(TEMPLATE)
-    design = make_design(loaded.project, loaded.folder)
-    solids = make_solids(design.kit.nodes, design.kit.drum, loaded.project.nodes.slot_end)
-    tables = part_tables(design.kit, kit_settings(loaded.project), solids, {}, {}, drawn=True)
+    return make_design(loaded.project, loaded.folder)
+
+
+@pytest.fixture(scope="module")
+def schedules(design) -> dict[str, list[dict]]:
+    """Rows of the program's tables by name."""
+    solids = make_solids(design.kit.nodes, design.kit.drum, design.project.nodes.slot_end)
+    tables = part_tables(design.kit, kit_settings(design.project), solids, {}, {}, drawn=True)
     return {table.name: _rows(table) for table in tables}
 
 
@@ -122,6 +131,15 @@ def test_the_program_schedules_the_parts_of_the_page(schedules, table):
     name = "mark" if table in CLASSES else "location"
     expected = by_hand[1](*by_hand[2])
     assert _differences(next(row for row in schedules[table] if row[name] == expected[name]), expected) == {}
+
+
+def test_the_nc1_file_of_the_page_is_what_the_arithmetic_and_the_program_give(design):
+    printed = PAGE.partition("```text\nST\n")[2].partition("```")[0].splitlines()
+    assert ["ST", *printed] == nc1_file(*MEMBER)
+    order = NcOrder(design.project.project.number)
+    parts = {part.mark: part for part in member_nc_parts(design.kit.members, design.project.members, "kg/m")}
+    assert order.order == ORDER
+    assert nc1_text(parts["M008"], order).splitlines() == nc1_file(*MEMBER)
 
 
 @pytest.mark.parametrize("table", INSTANCES)

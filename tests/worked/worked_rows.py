@@ -227,7 +227,8 @@ def member_row(i, j, di, dj):
     row |= {f"set_back_{end}_mm": PLATE_END / cos(angle) for end, angle in ends}
     row |= mass(face * THICK * STEEL / 1e9, count)
     row["coated_area_m2"] = (2 * face + THICK * perimeter(outline)) / 1e6
-    return row | {"files": f"members/{row['mark']}.dxf;{sheet('members', row['mark'])}"}
+    files = [f"members/{row['mark']}.{kind}" for kind in ("dxf", "nc1")]
+    return row | {"files": ";".join([*files, sheet("members", row["mark"])])}
 
 
 def sheet(book, name):
