@@ -16,6 +16,9 @@ LARGEST = 1e12
 LONGEST = 1e9
 """Lengths beyond a thousand kilometres, in mm, are slips of the pen."""
 
+FARTHEST = 1e11
+"""Places on maps lie within a hundred thousand kilometres of their origin, mm; there a float resolves 0.00002 mm."""
+
 _QUANTITY = re.compile(
     r"\s*(?P<sign>[+-]?)(?:(?P<whole>\d+)\s+)?(?P<number>\d+/[1-9]\d*|\d*\.?\d+(?:[eE][+-]?\d+)?|\d+\.)"
     r"\s*(?P<unit>mm|cm|m|in|ft)\s*"
@@ -35,12 +38,25 @@ def parse_length(value: object) -> float:
     >>> parse_length("24 m"), parse_length("1 1/2 in"), parse_length(12)
     (24000.0, 38.1, 12.0)
     """
+    return _parse(value, LONGEST)
+
+
+def parse_coordinate(value: object) -> float:
+    """Give a coordinate on a map in mm: written as a length is, but it may be larger.
+
+    >>> parse_coordinate("5332417.25 m")
+    5332417250.0
+    """
+    return _parse(value, FARTHEST)
+
+
+def _parse(value: object, limit: float) -> float:
     if isinstance(value, str):
-        return _finite(_parse_text(value), value)
+        return _finite(_parse_text(value), value, limit)
     if isinstance(value, bool) or not isinstance(value, int | float):
         message = f"{value!r} is not a length; a number in mm or a text such as '24 m'"
         raise ValueError(message)
-    return _finite(value, value)
+    return _finite(value, value, limit)
 
 
 def _parse_text(text: str) -> Fraction:
@@ -56,10 +72,10 @@ def _parse_text(text: str) -> Fraction:
     return sign * number * Fraction(str(MM_PER_UNIT[match["unit"]]))
 
 
-def _finite(length: float | Fraction, value: object) -> float:
+def _finite(length: float | Fraction, value: object, limit: float) -> float:
     """Compare before converting: whole numbers and fractions may be larger than any float."""
-    if not abs(length) <= LONGEST:
-        message = f"{str(value)[:24]!r} is not a length that can be built; at most {LONGEST:g} mm"
+    if not abs(length) <= limit:
+        message = f"{str(value)[:24]!r} is not a length that can be built; at most {limit:g} mm"
         raise ValueError(message)
     return float(length)
 
@@ -93,6 +109,7 @@ Count = Annotated[int, Strict(), AfterValidator(_sized)]
 """An integer, never a bool, a float or a string."""
 Flag = Annotated[bool, Strict()]
 Length = Annotated[float, BeforeValidator(parse_length)]
+Coordinate = Annotated[float, BeforeValidator(parse_coordinate)]
 """A length in mm; accepts a number in mm or a string with a unit."""
 PositiveLength = Annotated[Length, AfterValidator(_positive)]
 NonNegativeLength = Annotated[Length, AfterValidator(_not_negative)]

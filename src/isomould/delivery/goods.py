@@ -10,6 +10,7 @@ from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
 from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
+from isomould.documents.setting_out import SettingOut, set_out, setting_out_table
 from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table
@@ -65,6 +66,12 @@ class Delivery:
         return (self.cost.rates, self.cost.lines, *self.schedules, *families)
 
     @cached_property
+    def setting_out(self) -> SettingOut:
+        """Work points and axes in the datum of the site."""
+        project = self.design.project
+        return set_out(self.design.kit, project.members.section.depth, project.project.datum)
+
+    @cached_property
     def strips(self) -> tuple[Strip, ...]:
         """The strips that the project asks for, unrolled."""
         mesh, asked = self.design.kit.mesh, self.design.project.deliver.strips
@@ -82,5 +89,6 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
     revision = (revision_table(tables, delivery.former),) if delivery.former else ()
     kit = (delivery.kit,) if delivery.kit else ()
+    site = (setting_out_table(delivery.setting_out),)
     families = (families_table(delivery.compared),) if delivery.compared else ()
-    return (*tables, sheets, *bars, *strips, *revision, *kit, *families)
+    return (*tables, *site, sheets, *bars, *strips, *revision, *kit, *families)

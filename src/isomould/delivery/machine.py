@@ -107,6 +107,4 @@ def write_strips(folder: Path, delivery: Delivery) -> None:
 
 def write_setting_out(path: Path, delivery: Delivery) -> None:
     """Write the axes in space."""
-    project = delivery.design.project
-    drawing = setting_out_drawing(delivery.design.kit, project.members.section.depth)
-    write_dxf(path, drawing, project.deliver.layers)
+    write_dxf(path, setting_out_drawing(delivery.setting_out), delivery.design.project.deliver.layers)

@@ -48,6 +48,8 @@ TABLES: dict[str, tuple[str, ...]] = {
             charged_area_m2 box_width_mm box_height_mm mass_kg total_mass_kg handed files""",
         "panel_instances": """location mark i j first_corner nodes members packers_mm slope_deg flatness_mm
             sheet x_mm y_mm rotation_deg turned_over deviation_mm""",
+        "setting_out": """location mark x_mm y_mm z_mm top_x_mm top_y_mm top_z_mm
+            bottom_x_mm bottom_y_mm bottom_z_mm""",
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",

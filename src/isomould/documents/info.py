@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from isomould.settings import Settings
+from isomould.units import Coordinate, Number
 
 _LONGEST = 120
 
@@ -31,6 +32,15 @@ Text = Annotated[str, Field(max_length=_LONGEST), AfterValidator(_one_line)]
 """One line of printable text."""
 
 
+class DatumSettings(Settings):
+    """The datum of the site: where the project's origin lies in it, and how its x axis is turned there."""
+
+    origin: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 0.0, 0.0)
+    """Easting, northing and height of the project's origin."""
+    rotation_deg: Number = 0.0
+    """From the site's x axis (east) to the project's, counter-clockwise seen from above."""
+
+
 class ProjectInfo(Settings):
     """The `[project]` table."""
 
@@ -44,4 +54,5 @@ class ProjectInfo(Settings):
     drawing: Text = ""
     """Drawing number of the parts, for the machine files."""
     phase: Text = ""
+    datum: DatumSettings = Field(default_factory=DatumSettings)
     date: Annotated[datetime.date | None, BeforeValidator(_drawn_up)] = None

@@ -25,12 +25,13 @@ class Outline:
 
 @dataclass(frozen=True)
 class Entity:
-    """Any other entity: type, layer, its points (x, y, z) and its radius (0 where it has none), mm."""
+    """Any other entity: type, layer, its points (x, y, z), radius and text (0 and empty where it has none), mm."""
 
     kind: str
     layer: str
     points: tuple[tuple[float, float, float], ...]
     radius: float
+    text: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +96,9 @@ def _entity(entity: Any) -> Entity:
     dxf = entity.dxf
     names = [name for name in ("start", "end", "center", "insert") if dxf.hasattr(name)]
     points = tuple(dxf.get(name).xyz for name in names)
-    return Entity(entity.dxftype(), dxf.layer, points, float(dxf.radius) if dxf.is_supported("radius") else 0.0)
+    radius = float(dxf.radius) if dxf.is_supported("radius") else 0.0
+    text = str(dxf.text) if dxf.is_supported("text") else ""
+    return Entity(entity.dxftype(), dxf.layer, points, radius, text)
 
 
 def with_layers(drawing: Drawing, names: dict[str, str]) -> Drawing:
