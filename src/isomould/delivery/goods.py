@@ -8,6 +8,7 @@ from isomould.comparison import Compared, compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
+from isomould.documents.packing import packing_tables
 from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
 from isomould.documents.setting_out import SettingOut, set_out, setting_out_table
@@ -89,6 +90,6 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
     revision = (revision_table(tables, delivery.former),) if delivery.former else ()
     kit = (delivery.kit,) if delivery.kit else ()
-    site = (setting_out_table(delivery.setting_out),)
+    site = (setting_out_table(delivery.setting_out), *packing_tables(tables))
     families = (families_table(delivery.compared),) if delivery.compared else ()
     return (*tables, *site, sheets, *bars, *strips, *revision, *kit, *families)

@@ -50,6 +50,8 @@ TABLES: dict[str, tuple[str, ...]] = {
             sheet x_mm y_mm rotation_deg turned_over deviation_mm""",
         "setting_out": """location mark x_mm y_mm z_mm top_x_mm top_y_mm top_z_mm
             bottom_x_mm bottom_y_mm bottom_z_mm""",
+        "packing": "crate location mark members panels",
+        "crates": "crate part mark quantity mass_kg total_mass_kg locations",
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",
