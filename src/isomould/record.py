@@ -48,6 +48,7 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         "drawings": project.deliver.drawings,
         "dxf": list(project.deliver.dxf),
         "nc1": _nc1(design),
+        "labels": project.deliver.labels,
         "datum": project.project.datum.model_dump(),
         "counts": _counts(design),
         "shapes": [shape.slug for shape in project.shapes],

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from isomould.delivery.drawings import write_drawings
 from isomould.delivery.goods import Delivery
+from isomould.delivery.handling import write_labels
 from isomould.delivery.machine import write_machine_files, write_nc1_files, write_setting_out, write_strips
 from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
@@ -23,4 +24,5 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     write_bars(folder / "bars" / "bars.csv", delivery)
     write_drawings(folder / "drawings", delivery, spread)
     write_strips(folder, delivery)
+    write_labels(folder / "labels.pdf", delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

@@ -47,6 +47,8 @@ class DeliverSettings(Settings):
     """Versions of the machine DXF; R12 twins lie in `r12/`."""
     nc1_mass: MassUnit | None = None
     """What line 15 of NC1 files holds; by default kg/m for members and kg/m² for plates."""
+    labels: Flag = False
+    """A4 sheets of labels with QR codes, one for every piece."""
     strips: tuple[Along, ...] = ()
     """Strips to unroll: between neighbouring generatrices, between neighbouring parallels."""
     solids: tuple[Literal["members", "panels"], ...] = ()

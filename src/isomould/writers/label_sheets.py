@@ -1,0 +1,90 @@
+"""Label sheets as PDF: A4 with 3 × 8 labels of 70 × 37 mm, each with a QR code; the same bytes every time."""
+
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import segno
+from reportlab import rl_config
+from reportlab.pdfbase.pdfmetrics import stringWidth
+from reportlab.pdfgen.canvas import Canvas
+
+from isomould.documents.ascii import plain_text
+from isomould.documents.labels import PieceLabel
+from isomould.writers.disk import write_bytes
+
+_MM = 72 / 25.4
+_PAGE = (210.0, 297.0)
+_COLUMNS, _ROWS = 3, 8
+_LABEL = (70.0, 37.0)
+_CODE = 25.0
+"""Side of a code without its quiet zone of four modules, mm."""
+_LEFT, _BELOW = 4.0, 6.0
+_TEXT = (_LEFT + _CODE + 5.0, 31.0)
+_WIDTH = _LABEL[0] - _TEXT[0] - 3.0
+
+
+def write_label_sheets(path: Path, labels: Sequence[PieceLabel]) -> None:
+    """Write labels row by row from the upper left, sheet after sheet.
+
+    Raises
+    ------
+    OutputFault
+        If the file cannot be written.
+    """
+    rl_config.useA85 = 0  # the streams need not be text
+    stream = io.BytesIO()
+    canvas = Canvas(stream, pagesize=(_PAGE[0] * _MM, _PAGE[1] * _MM), invariant=1, pageCompression=1)
+    canvas.setTitle("Labels")
+    for first in range(0, len(labels), _COLUMNS * _ROWS):
+        _add_sheet(canvas, labels[first : first + _COLUMNS * _ROWS])
+    canvas.save()
+    write_bytes(path, stream.getvalue())
+
+
+def _add_sheet(canvas: Canvas, labels: Sequence[PieceLabel]) -> None:
+    canvas.scale(_MM, _MM)
+    for k, label in enumerate(labels):
+        row, column = divmod(k, _COLUMNS)
+        canvas.saveState()
+        canvas.translate(column * _LABEL[0], _PAGE[1] - (row + 1) * _LABEL[1])
+        _add_label(canvas, label)
+        canvas.restoreState()
+    canvas.showPage()
+
+
+def _add_label(canvas: Canvas, label: PieceLabel) -> None:
+    """Draw the code on the left; mark, location, crate and project under each other on its right."""
+    _add_code(canvas, label.code)
+    x, y = _TEXT
+    for text, height, drop in ((label.mark, 7.0, 6.0), (label.location, 4.5, 8.0), (label.crate, 3.5, 7.0)):
+        y -= drop
+        _write(canvas, x, y, text, height)
+    _write(canvas, x, y - 6.0, plain_text(label.project), 2.0)
+
+
+def _write(canvas: Canvas, x: float, y: float, text: str, size: float) -> None:
+    """Write a line, smaller where it would be too wide."""
+    width = stringWidth(text, "Helvetica-Bold", size)
+    canvas.setFont("Helvetica-Bold", size if width <= _WIDTH else size * _WIDTH / width)
+    canvas.drawString(x, y, text)
+
+
+def _add_code(canvas: Canvas, text: str) -> None:
+    """Draw a QR code (level M) as one path: a bar for every run of dark modules of a row."""
+    matrix = segno.make_qr(text, error="m", boost_error=False).matrix
+    module, path = _CODE / len(matrix), canvas.beginPath()
+    for k, row in enumerate(matrix):
+        for start, end in _runs(row):
+            path.rect(_LEFT + start * module, _BELOW + _CODE - (k + 1) * module, (end - start) * module, module)
+    canvas.drawPath(path, stroke=0, fill=1)
+
+
+def _runs(row: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Give the beginnings and ends of the runs of dark modules.
+
+    >>> list(_runs([1, 1, 0, 1]))
+    [(0, 2), (3, 4)]
+    """
+    edges = [k for k, (before, after) in enumerate(zip((0, *row), (*row, 0), strict=True)) if before != after]
+    return zip(edges[::2], edges[1::2], strict=True)
