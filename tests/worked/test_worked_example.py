@@ -30,7 +30,7 @@ def schedules() -> dict[str, list[dict]]:
     """Rows of the program's tables by name."""
     loaded = load_project(TEMPLATE)
     design = make_design(loaded.project, loaded.folder)
-    solids = make_solids(design.kit.nodes, design.kit.drum, loaded.project.nodes.slot_end)
+    solids = make_solids(design.kit.nodes, design.kit.joints)
     tables = part_tables(design.kit, kit_settings(loaded.project), solids, {}, {}, drawn=True)
     return {table.name: _rows(table) for table in tables}
 

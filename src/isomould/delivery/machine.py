@@ -5,12 +5,13 @@ from pathlib import Path
 
 from isomould.arrays import Floats
 from isomould.delivery.goods import Delivery
-from isomould.documents.cut_sheets import part_drawing, sheet_drawing
+from isomould.documents.cut_sheets import hole_contours, part_drawing, sheet_drawing
 from isomould.documents.drawing import Layer
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
+from isomould.parts.features import Hole
 from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
 from isomould.writers.disk import write_bytes
@@ -24,7 +25,9 @@ class _PartFile:
     path: Path
     outline: Floats
     layers: dict[Layer, str]
-    orientation: str | None
+    orientation: str | None = None
+    holes: tuple[Hole, ...] = ()
+    bulges: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +48,15 @@ def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> Non
     panels = zip(kit.panels.marks, kit.panels.outlines, strict=True)
     members = zip(kit.members.marks, kit.members.shapes, strict=True)
     files = [_PartFile(folder / "panels" / f"{mark}.dxf", outline, layers, orientation) for mark, outline in panels]
-    files += [_PartFile(folder / "members" / f"{mark}.dxf", shape.outline, layers, None) for mark, shape in members]
+    files += [
+        _PartFile(folder / "members" / f"{mark}.dxf", shape.outline, layers, None, shape.holes)
+        for mark, shape in members
+    ]
+    files += [
+        _PartFile(folder / "fittings" / f"{f.mark}.dxf", f.outline[0], layers, None, f.holes, f.outline[1])
+        for f in delivery.fittings
+        if f.outline
+    ]
     spread(_write_part, files)
     layout = delivery.cutting.sheets
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
@@ -65,7 +76,8 @@ def _orientation(panels: PanelSettings) -> str | None:
 
 
 def _write_part(file: _PartFile) -> None:
-    write_dxf(file.path, part_drawing(file.path.stem, file.outline, orientation=file.orientation), file.layers)
+    inner, text = hole_contours(file.holes), file.orientation
+    write_dxf(file.path, part_drawing(file.path.stem, file.outline, file.bulges, inner, orientation=text), file.layers)
 
 
 def _write_sheet(file: _SheetFile) -> None:

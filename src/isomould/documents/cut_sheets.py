@@ -7,9 +7,20 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from isomould.arrays import Floats, round_um
-from isomould.documents.drawing import CutDrawing, Entity, Label, Layer, Polyline, chords, signed_area
+from isomould.documents.drawing import (
+    Circle,
+    CutDrawing,
+    Entity,
+    Label,
+    Layer,
+    Polyline,
+    chords,
+    circle_points,
+    signed_area,
+)
 from isomould.documents.orientation import point_to_side
 from isomould.documents.stroke_font import text_strokes, text_width
+from isomould.parts.features import Hole
 
 TEXT_HEIGHTS = (20.0, 14.0, 10.0, 7.0, 5.0, 3.5, 2.5, 2.0)
 """Heights of engraved marks, tallest first (ISO 3098 steps), mm."""
@@ -30,7 +41,7 @@ def part_drawing(
     mark: str,
     outline: Floats,
     bulges: Floats | None = None,
-    inner: Sequence[Polyline] = (),
+    inner: Sequence[Polyline | Circle] = (),
     note: str = "",
     orientation: str | None = None,
     reserved: Sequence[Floats] = (),
@@ -43,8 +54,8 @@ def part_drawing(
     outline : (n, 2) float, mm
         Counter-clockwise, first vertex not repeated.
     bulges : (n,) float, optional
-    inner : sequence of Polyline
-        Closed contours to cut inside, in either direction; CUT_INNER is clockwise by definition.
+    inner : sequence of Polyline or Circle
+        Closed contours to cut inside, in either direction (CUT_INNER is clockwise by definition), and drilled holes.
     note : str
         What stands after the mark in the information below the part.
     orientation : str, optional
@@ -53,10 +64,10 @@ def part_drawing(
         Polygons that are kept free of the mark.
     """
     contour = Polyline("CUT", outline, True, bulges)
-    holes = [_directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
+    holes = [_inside(hole) for hole in inner]
     left, bottom = outline.min(axis=0)
     info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
-    free = shapely.Polygon(chords(contour), [chords(hole) for hole in holes])
+    free = shapely.Polygon(chords(contour), [_contour(hole) for hole in holes])
     free = free.difference(shapely.union_all([shapely.Polygon(taken) for taken in reserved]))
     return CutDrawing((contour, *holes, *_engraved(mark, free, outline, orientation), info))
 
@@ -86,6 +97,28 @@ def sheet_drawing(
     lines = [Polyline("SCORE", line, False) for line in ([] if scores is None else scores)]
     parts = [entity for placement in placements for entity in _placed(layer, orientation, *placement)]
     return CutDrawing((stock, *parts, *lines))
+
+
+def hole_contours(holes: Iterable[Hole]) -> tuple[Polyline | Circle, ...]:
+    """Give the holes in the front of a member: circles to drill, slots to cut."""
+    return tuple(_opening(hole) for hole in holes if hole.face == "front")
+
+
+def _opening(hole: Hole) -> Polyline | Circle:
+    """A slot runs clockwise, its ends are half circles."""
+    if not hole.lengthening:
+        return Circle("DRILL", (hole.x, hole.y), hole.diameter / 2)
+    x, y = hole.lengthening / 2, hole.diameter / 2
+    corners = np.array([hole.x, hole.y]) + np.array([[-x, -y], [-x, y], [x, y], [x, -y]])
+    return Polyline("CUT_INNER", corners, True, np.array([-1.0, 0.0, -1.0, 0.0]))
+
+
+def _inside(hole: Polyline | Circle) -> Polyline | Circle:
+    return hole if isinstance(hole, Circle) else _directed(hole.points, hole.bulges, "CUT_INNER")
+
+
+def _contour(hole: Polyline | Circle) -> Floats:
+    return circle_points(hole) if isinstance(hole, Circle) else chords(hole)
 
 
 def _placed(layer: Layer, orientation: str | None, mark: str, location: str, points: Floats) -> list[Entity]:

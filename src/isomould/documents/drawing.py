@@ -102,6 +102,12 @@ def chords(polyline: Polyline) -> Floats:
     return np.concatenate(pieces).view(float).reshape(-1, 2)
 
 
+def circle_points(circle: Circle) -> Floats:
+    """Give the points (m, 2) of a circle cut into short chords, mm."""
+    angle = 2 * np.pi * np.arange(4 * _ARC_PIECES) / (4 * _ARC_PIECES)
+    return np.array(circle.centre) + circle.radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
 def _arc(start: complex, end: complex, bulge: float) -> NDArray[np.complex128]:
     if bulge == 0:
         return np.array([start])
