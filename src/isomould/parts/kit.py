@@ -9,6 +9,7 @@ from isomould.errors import Note
 from isomould.form.mesh import Mesh
 from isomould.form.trim import Cut
 from isomould.parts.arms import Arms, find_arms
+from isomould.parts.corners import Stacks
 from isomould.parts.details import size_nodes
 from isomould.parts.details.joint import Joint
 from isomould.parts.members import MemberParts, make_members
@@ -72,6 +73,14 @@ def standing(mesh: Mesh, settings: KitSettings) -> Floats:
     return up_directions(mesh, settings.cuts if settings.nodes.base_plate else ())
 
 
+def _stacks(nodes: NodeParts, joints: tuple[Joint, ...]) -> Stacks | None:
+    """Say what stands proud on the nodes: caps and bolt heads, or faceted drums; plain drums never do."""
+    if not any(joint.proud for joint in joints):
+        return None
+    top = np.array([joint.stack_height for joint in joints])[nodes.classes.of]
+    return Stacks(max(joint.stack_radius for joint in joints), top)
+
+
 def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) -> Kit:
     """Sort nodes, members and panels into classes and size one part of each.
 
@@ -89,6 +98,7 @@ def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) 
     section = settings.members.section
     joints = size_nodes(nodes, settings.members, settings.nodes)
     members = make_members(mesh, arms, nodes, joints, settings.members, settings.tolerance)
-    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance)
+    stacks = _stacks(nodes, joints)
+    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance, stacks)
     bases = make_bases(nodes, joints, settings.members, settings.nodes.base_plate)
     return Kit(mesh, arms, nodes, joints, members, panels, bases, beam_mismatch(arms, section.depth), torsion)

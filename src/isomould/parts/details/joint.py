@@ -115,6 +115,11 @@ class Joint(ABC):
         return round(self.high - self.low, 3)
 
     @property
+    def proud(self) -> bool:
+        """Whether something may stand above the members: members that lean end lower than their drum."""
+        return len(self.stack) > 1 or not self.leans
+
+    @property
     def stack_height(self) -> float:
         """Highest level of all that stands on the node."""
         return max(height for _, height in self.stack)
