@@ -3,6 +3,7 @@
 import manifold3d as m3
 import numpy as np
 
+from isomould.arrays import Floats
 from isomould.parts.catalogue import AnySection, PlateSection, RhsSection
 from isomould.parts.features import Face, Hole
 from isomould.parts.members import MemberShape
