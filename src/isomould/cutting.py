@@ -45,7 +45,7 @@ class Cutting:
         return {str(cut.location): (bar.id, cut.start) for bar in bars for cut in bar.cuts}
 
 
-def nest_kit(kit: Kit, section: str, stock: StockSettings | None, task: Search, spread: Spread) -> Cutting:
+def nest_kit(kit: Kit, stock: StockSettings | None, task: Search, spread: Spread) -> Cutting:
     """Nest all panels and members; without stock sheets every row gets blanks to order of its own.
 
     Raises
@@ -56,7 +56,7 @@ def nest_kit(kit: Kit, section: str, stock: StockSettings | None, task: Search, 
     stock = stock or StockSettings()
     work = [
         _panel_work(kit, stock, task),
-        *([partial(nest_bars, _member_parts(kit, section), stock)] if stock.bars else []),
+        *([partial(nest_bars, _member_parts(kit), stock)] if stock.bars else []),
     ]
     sheets, *rest = spread(_run, work)
     bars = cast("BarLayout", rest[0]) if rest else None
@@ -121,11 +121,11 @@ def _panel_parts(kit: Kit) -> tuple[Part, ...]:
     )
 
 
-def _member_parts(kit: Kit, section: str) -> tuple[Member, ...]:
+def _member_parts(kit: Kit) -> tuple[Member, ...]:
     members = kit.members
     where = _where(members.locations, members.classes.of, len(members.marks))
     return tuple(
-        Member(mark, section, shape.cut_length, len(places), places)
+        Member(mark, shape.section.name, shape.cut_length, len(places), places)
         for mark, shape, places in zip(members.marks, members.shapes, where, strict=True)
     )
 

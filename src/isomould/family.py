@@ -12,6 +12,7 @@ from isomould.documents.table import Table, make_table
 from isomould.errors import Note, Refused
 from isomould.form.mesh import NodeKind
 from isomould.form.survey import node_angles
+from isomould.parts.details import share_sizes
 from isomould.parts.kit import make_kit, standing
 from isomould.parts.sharing import share_nodes
 from isomould.project.load import LoadedProject
@@ -105,8 +106,8 @@ def _with_one_kit(designs: Designs) -> dict[str, Design]:
     """Make the parts of all shapes anew, their nodes sorted together, with drums that suit all of them."""
     meshes = [design.kit.mesh for design in designs.values()]
     settings = kit_settings(designs[MAIN].project)
-    diameter = max(design.kit.drum.diameter for design in designs.values())
-    settings = replace(settings, nodes=settings.nodes.model_copy(update={"drum_diameter": diameter}))
+    sizes = share_sizes([design.kit.nodes for design in designs.values()], settings.members, settings.nodes)
+    settings = replace(settings, nodes=sizes)
     up = [standing(design.kit.mesh, kit_settings(design.project)) for design in designs.values()]
     shared = share_nodes(meshes, settings.tolerance, up)
     kits = [make_kit(mesh, settings, nodes) for mesh, nodes in zip(meshes, shared, strict=True)]

@@ -133,13 +133,13 @@ def _compute(design: Design, kit: Table | None, logo: Logo | None, run: Run, spr
     project, report = design.project, run.report
     former = read_former(run.previous) if run.previous else None
     report(f"{len(design.kit.nodes.marks)} node solids")
-    solids = make_solids(design.kit.nodes, design.kit.drum, project.nodes.slot_end)
+    solids = make_solids(design.kit.nodes, design.kit.joints)
     design = keep_design_marks(design, solids, former) if former else design
     settings = kit_settings(project)
     bodies = make_shapes(design.kit, settings, solids)
     refuse_clashes(design.kit, settings, bodies)
     report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
-    cutting = nest_kit(design.kit, project.members.section.name, project.stock, Search(run.effort), spread)
+    cutting = nest_kit(design.kit, project.stock, Search(run.effort), spread)
     return Delivery(design, solids, bodies, cutting, former, kit, logo)
 
 

@@ -13,6 +13,7 @@ from isomould.form.profile import Caps
 from isomould.form.spatial import SpatialPolygon
 from isomould.form.trim import make_cut
 from isomould.nesting.settings import StockSettings
+from isomould.parts.catalogue import AnySection, PlateSection
 from isomould.parts.settings import BasePlateSettings
 
 
@@ -114,28 +115,33 @@ def _with_nulls(values: Floats) -> list[float | None]:
 
 
 def _member(design: Design) -> dict[str, Any]:
-    asked = design.project.members
+    asked, shapes = design.project.members, design.kit.members.shapes
+    used = {shape.section.name: shape.section for shape in shapes}
     return {
-        "kind": asked.section.kind,
         "depth": asked.section.depth,
-        "thickness": asked.section.thickness,
         "density_kg_m3": asked.density,
+        "sections": {name: _section(used[name]) for name in sorted(used)},
     }
 
 
+def _section(section: AnySection) -> dict[str, Any]:
+    if isinstance(section, PlateSection):
+        return {"kind": "plate", "depth": section.depth, "thickness": section.thickness}
+    outer, inner = section.radii
+    walls = {"wall": section.wall, "outer_radius": outer, "inner_radius": inner}
+    return {"kind": "rhs", "depth": section.depth, "width": section.width, **walls}
+
+
 def _node(design: Design) -> dict[str, Any]:
-    asked, drum = design.project.nodes, design.kit.drum
+    asked, joint = design.project.nodes, design.kit.joints[0]
     return {
         "detail": asked.detail,
-        "retention": asked.retention,
         "density_kg_m3": asked.density,
-        "drum_diameter_mm": drum.diameter,
-        "bore_mm": drum.bore,
-        "slot_width_mm": drum.slot_width,
-        "slot_floor_mm": drum.slot_floor,
-        "plate_end_mm": drum.plate_end,
-        "shoulder_mm": drum.shoulder,
-        "web_mm": drum.web,
+        "drum_diameter_mm": joint.diameter,
+        "bore_mm": joint.bore,
+        "min_web_mm": asked.min_web,
+        "min_core_mm": asked.min_core,
+        **joint.sizes,
         "base_plate": _base_plate(asked.base_plate),
     }
 

@@ -32,8 +32,7 @@ def is_priced(project: Project) -> bool:
 def price_families(compared: Iterable[Compared], project: Project, pricing: Pricing) -> tuple[Table, Table]:
     """Give the tables "rates" and "repetition" of a comparison."""
     families = {each.family: _quantities(each, project.panels) for each in compared}
-    section = project.members.section
-    mass = section.depth * section.thickness / 1e6 * project.members.density
+    mass = project.members.section.area / 1e6 * project.members.density
     rates = make_rates(pricing)
     return make_rate_table(rates), make_repetition(families, rates, pricing, mass)
 

@@ -13,11 +13,12 @@ from isomould.delivery.goods import Delivery
 from isomould.documents.shop.checks import clashes, text_box
 from isomould.documents.shop.development import flat_faces, lay_block
 from isomould.documents.shop.labels import make_names, owners
-from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet, plate_section
+from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.page import SMALLEST, Arc, Line, Text
 from isomould.documents.shop.rows import schedule_rows
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.nesting.search import Search
+from isomould.parts.bodies import section_outline
 from isomould.parts.features import Hole
 from isomould.parts.sections import view_solid
 from isomould.parts.solid import make_solids
@@ -27,8 +28,8 @@ from isomould.workers import one_by_one
 
 def delivery_of(data):
     design = museum.design(data)
-    solids = make_solids(design.kit.nodes, design.kit.drum, design.project.nodes.slot_end)
-    cutting = nest_kit(design.kit, design.project.members.section.name, None, Search("quick"), one_by_one)
+    solids = make_solids(design.kit.nodes, design.kit.joints)
+    cutting = nest_kit(design.kit, None, Search("quick"), one_by_one)
     return Delivery(design, solids, {}, cutting)
 
 
@@ -103,7 +104,7 @@ def test_dimensions_of_members_are_as_long_as_they_say(vault, books):
 def test_set_backs_of_arms_are_those_of_their_members(vault, books):
     table = next(table for table in vault.schedules if table.name == "members")
     scheduled = {row[f"set_back_{end}_mm"] for row in schedule_rows(table) for end in ("start", "end")}
-    drum, page = vault.design.kit.drum, books["nodes"].pages[4]
+    drum, page = vault.design.kit.joints[4], books["nodes"].pages[4]
     row = schedule_rows(next(table for table in vault.schedules if table.name == "nodes"))[4]
     shown = texts(page)
     for k in range(1, int(row["valence"]) + 1):
@@ -118,9 +119,9 @@ def test_sections_of_a_drum(vault):
     kit, solid = vault.design.kit, vault.solids[4]
     views = view_solid(solid)
     shoelace = [np.sum(p[:, 0] * np.roll(p[:, 1], -1) - p[:, 1] * np.roll(p[:, 0], -1)) / 2 for p in views.level]
-    assert sum(shoelace) * kit.drum.height[4] == pytest.approx(solid.volume, rel=1e-9)
-    assert np.hypot(*np.concatenate(views.plan).T).max() == pytest.approx(kit.drum.radius, abs=5e-3)
-    assert np.ptp(np.concatenate(views.elevation)[:, 1]) == pytest.approx(kit.drum.height[4], abs=1e-6)
+    assert sum(shoelace) * kit.joints[4].height == pytest.approx(solid.volume, rel=1e-9)
+    assert np.hypot(*np.concatenate(views.plan).T).max() == pytest.approx(kit.joints[4].radius, abs=5e-3)
+    assert np.ptp(np.concatenate(views.elevation)[:, 1]) == pytest.approx(kit.joints[4].height, abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["vault", "dome"])
@@ -173,7 +174,7 @@ def test_holes_are_drawn_placed_and_listed(vault):
         Hole(300.0, 0.0, 20.0, "top", 0.0, "M20"),
     )
     shape = replace(kit.members.shapes[6], holes=holes)
-    member = MemberDrawing(schedule_rows(table)[6], shape, plate_section(200.0, 12.0))
+    member = MemberDrawing(schedule_rows(table)[6], shape, section_outline(shape.section))
     block = read_title_block((template_folder() / "sheets" / "title-block.toml").read_text(encoding="utf-8"))
     stationery = Stationery(block, vault.design.project.project)
     bare, drilled = (

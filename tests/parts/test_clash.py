@@ -48,7 +48,7 @@ def test_plates_have_holes_and_slots():
 def parts(data):
     design = museum.design(data)
     settings = kit_settings(design.project)
-    solids = make_solids(design.kit.nodes, design.kit.drum, "square")
+    solids = make_solids(design.kit.nodes, design.kit.joints)
     return design.kit, settings, make_shapes(design.kit, settings, solids)
 
 

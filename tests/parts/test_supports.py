@@ -1,5 +1,7 @@
 """Base plates by hand, and what is refused about them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,19 +9,18 @@ import museum
 from isomould.design import kit_settings
 from isomould.errors import Refused
 from isomould.form.mesh import Family, NodeKind
-from isomould.parts.drum import Drum
 from isomould.parts.nodes import NodeArms
 from isomould.parts.outline import area
-from isomould.parts.settings import BasePlateSettings, PlateSection
+from isomould.parts.settings import BasePlateSettings, MemberSettings
 from isomould.parts.supports import _make_base, _reach, make_bases, up_directions
 
 DOME = museum.trimmed(museum.dome(5.2, nodes=6))
 ASKED = BasePlateSettings()
-SECTION = PlateSection(depth=120, thickness=10)
+MEMBERS = MemberSettings(section="FL120*10")
 
 
 def drum(height=100.0, radius=45.0):
-    return Drum(2 * radius, 20.0, np.array([height]), 10.5, 18.0, 20.0, radius + 2, 6.0)
+    return SimpleNamespace(radius=radius, height=height, clearance=2.0, stack=((radius, height / 2),))
 
 
 def arms(elevation_deg=90.0 - 1e-3, family=Family.GENERATRIX):
@@ -30,7 +31,7 @@ def test_a_drum_that_lies_on_its_side_by_hand():
     """Axis level, member rising: the plate's top is a radius and the clearance below, its stem a rectangle."""
     up = np.array([1.0, 0.0, 0.0])
     flat = arms(0.0)
-    assert _reach(flat, up, drum(), 100.0, SECTION) == pytest.approx(45.0)
+    assert _reach(flat, up, drum(), MEMBERS) == pytest.approx(45.0)
     base = _make_base(flat, up, (45.0, 50.0), 45.0, ASKED, "N01")
     assert base.level == 55.0
     assert np.ptp(base.plate, axis=0).tolist() == [2 * (50 + 60), 2 * (45 + 60)]
@@ -44,7 +45,7 @@ def test_a_drum_that_lies_on_its_side_by_hand():
 def test_a_drum_that_leans_by_hand():
     """At 45° the lowest corner is (R + H/2)/√2 down; the stem's notch ends there, the clearance above its foot."""
     up = np.array([1.0, 0.0, 1.0]) / np.sqrt(2)
-    reach = _reach(arms(0.0), up, drum(), 100.0, SECTION)
+    reach = _reach(arms(0.0), up, drum(), MEMBERS)
     assert reach == pytest.approx(95 / np.sqrt(2))
     base = _make_base(arms(0.0), up, (45.0, 50.0), reach, ASKED, "N01")
     assert base.level == np.ceil(95 / np.sqrt(2) + 10)
@@ -66,7 +67,7 @@ def test_a_drum_that_stands_upright():
 def test_sills_keep_the_plate_below_them():
     up = np.array([1.0, 0.0, 0.0])
     both = NodeArms(np.array([0.0, np.pi / 2]), np.zeros(2), np.array([int(Family.GENERATRIX), int(Family.SILL)]))
-    assert _reach(both, up, drum(), 100.0, SECTION) == 60.0
+    assert _reach(both, up, drum(), MEMBERS) == 60.0
 
 
 def test_supports_of_a_dome_share_a_class_only_with_their_direction():
@@ -90,7 +91,7 @@ def test_bases_tell_apart_what_sills_would():
 
 
 def test_marks_without_bases_stay_as_they_are():
-    assert make_bases(museum.design(DOME).kit.nodes, drum(), SECTION, None) == (None,) * 10
+    assert make_bases(museum.design(DOME).kit.nodes, (), MEMBERS, None) == (None,) * 10
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,8 @@ from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
 
 Seed = Callable[[Path], None]
+WELDED_PLATES = ("V37c", "V38b", "V39", "V39b", "V39c")
+"""Checks of facets, fittings and hardware, which welded plates have none of."""
 BY_ID = {rule.id: rule for rule in RULES}
 
 
@@ -33,7 +35,7 @@ def test_no_false_alarm(built_folder):
     silent = {check.id: check.reason for check in certificate.checks if check.status == "not_applicable"}
     trims = {"V17", "V17b", "V17c", "V28", "V28b", "V28c"}
     asked = {"V7", "V10", "V23d", "V27c", "V40e", "V40f", "V41d", "V43i", "V48", "V60", "V61", "V62", "V63"}
-    assert silent.keys() <= trims | asked, silent
+    assert silent.keys() <= trims | asked | set(WELDED_PLATES), silent
 
 
 def edit_mesh(change):

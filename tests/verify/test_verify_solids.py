@@ -26,7 +26,7 @@ def tube(outer=50.0, inner=10.0, height=40.0):
     return Solid(vertices, np.array(triangles))
 
 
-def delivery(solid=None, record=(), volume_cm3=384.0, mass=3.014, member_mass=9.42, **raw):
+def delivery(solid=None, record=(), volume_cm3=384.0, mass=3.014, member_mass=9.42, section="FL200*12", **raw):
     given = {
         "status": "NoError",
         "components": 1,
@@ -48,7 +48,7 @@ def delivery(solid=None, record=(), volume_cm3=384.0, mass=3.014, member_mass=9.
             volume_cm3=[volume_cm3],
             mass_kg=[mass],
         ),
-        "members": table("members", mark=["M01"], mass_kg=[member_mass]),
+        "members": table("members", mark=["M01"], section=[section], mass_kg=[member_mass]),
     }
     found["panels"] = table("panels", mark=["P01"], mass_kg=[raw.pop("panel_mass", 3.0)])
     drawing = Drawing("M01", 4, (), (plate,), (hole,) if raw.pop("drilled", False) else ())

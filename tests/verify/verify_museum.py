@@ -118,7 +118,11 @@ def arrays(V, axes, closed):
 
 def raw_design(m, n, mesh):
     return {
-        "member": {"depth": DEPTH, "thickness": 12.0, "density_kg_m3": 7850.0},
+        "member": {
+            "depth": DEPTH,
+            "density_kg_m3": 7850.0,
+            "sections": {"FL200*12": {"kind": "plate", "depth": DEPTH, "thickness": 12.0}},
+        },
         "limits": {"max_deviation_mm": None, "min_member_mm": 300.0},
         "tolerances": {"length_mm": 0.5, "angle_deg": 0.05},
         "node": {"detail": "slotted", "bore_mm": 20.0},

@@ -39,7 +39,7 @@ def design():
 @pytest.fixture(scope="module")
 def schedules(design) -> dict[str, list[dict]]:
     """Rows of the program's tables by name."""
-    solids = make_solids(design.kit.nodes, design.kit.drum, design.project.nodes.slot_end)
+    solids = make_solids(design.kit.nodes, design.kit.joints)
     tables = part_tables(design.kit, kit_settings(design.project), solids, {}, {}, drawn=True)
     return {table.name: _rows(table) for table in tables}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from isomould.delivery.goods import Delivery
 from isomould.documents.shop.arrangement import arrangement_pages
-from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet, plate_section
+from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.node_sheet import NodeDrawing, node_sheet
 from isomould.documents.shop.page import Book
 from isomould.documents.shop.panel_sheet import PanelDrawing, panel_sheet
@@ -14,6 +14,11 @@ from isomould.documents.shop.rows import length_text, schedule_rows
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.documents.table import Table
 from isomould.documents.title_block import heading
+from isomould.parts.bodies import section_outline
+from isomould.parts.details.caps import Cap
+from isomould.parts.details.faceted import FacetedJoint
+from isomould.parts.details.joint import Joint
+from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.kit import Kit
 from isomould.parts.sections import view_solid
 from isomould.parts.settings import PanelSettings
@@ -57,9 +62,9 @@ def make_books(delivery: Delivery) -> tuple[Book, ...]:
 
 def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, kit = tables["nodes"], delivery.design.kit
-    rows, notes = schedule_rows(table), detail_notes(kit)
-    parts = zip(rows, delivery.solids, _set_backs(kit), strict=True)
-    drawn = [NodeDrawing(row, view_solid(solid), backs, notes) for row, solid, backs in parts]
+    rows = schedule_rows(table)
+    parts = zip(rows, delivery.solids, _set_backs(kit), map(detail_notes, kit.joints), strict=True)
+    drawn = [NodeDrawing(row, view_solid(solid), backs, notes) for row, solid, backs, notes in parts]
     pages = [node_sheet(stationery, table, node, k, len(rows)) for k, node in enumerate(drawn, start=1)]
     return Book("nodes", "Nodes", tuple(pages))
 
@@ -77,21 +82,39 @@ def _set_back(kit: Kit, row: int) -> float:
     return members.shapes[members.classes.of[edge]].set_back[end]
 
 
-def detail_notes(kit: Kit) -> tuple[str, ...]:
+def detail_notes(joint: Joint) -> tuple[str, ...]:
     """Say what the views of a node do not dimension."""
-    drum = kit.drum
-    return (
-        f"Slots {length_text(drum.slot_width)} wide, parallel to the axis",
-        f"Slot floors {length_text(drum.slot_floor)} from the axis",
-        *([f"Bore Ø{length_text(drum.bore)}"] if drum.bore else []),
-    )
+    bore = [f"Bore Ø{length_text(joint.bore)}"] if joint.bore else []
+    if isinstance(joint, SlottedJoint):
+        widths = " and ".join(map(length_text, sorted(set(joint.slot_widths.tolist()))))
+        slots = [
+            f"Slots {widths} wide, parallel to the axis",
+            f"Slot floors {length_text(joint.slot_floor)} from the axis",
+        ]
+        return (*(slots if widths else []), *_grooves(joint.cap), *bore)
+    if isinstance(joint, FacetedJoint):
+        return (f"Facets {length_text(joint.distance)} from the work point", *_threads(joint), *bore)
+    return tuple(bore)
+
+
+def _grooves(cap: Cap | None) -> list[str]:
+    """Say where the grooves for the lips of caps are."""
+    if cap is None:
+        return []
+    inner, outer = (2 * radius for radius in (cap.lip_inner - cap.clearance, cap.lip_outer + cap.clearance))
+    return [f"Grooves Ø{length_text(inner)} to Ø{length_text(outer)}, {length_text(cap.groove_depth)} deep"]
+
+
+def _threads(joint: FacetedJoint) -> list[str]:
+    """Say what is tapped into the facets."""
+    each = dict.fromkeys(joint.bolting)
+    return [f"{b.bolt.size} in facets of {b.section.name}, {length_text(b.hole_depth)} deep" for b in each]
 
 
 def _members(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, shapes = tables["members"], delivery.design.kit.members.shapes
-    section = delivery.design.project.members.section
-    rows, outline = schedule_rows(table), plate_section(section.depth, section.thickness)
-    drawn = [MemberDrawing(row, shape, outline) for row, shape in zip(rows, shapes, strict=True)]
+    rows = schedule_rows(table)
+    drawn = [MemberDrawing(row, shape, section_outline(shape.section)) for row, shape in zip(rows, shapes, strict=True)]
     pages = [member_sheet(stationery, table, member, k, len(rows)) for k, member in enumerate(drawn, start=1)]
     return Book("members", "Members", tuple(pages))
 

@@ -8,6 +8,7 @@ from isomould.comparison import Compared, compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
+from isomould.documents.node_tables import fitting_table, hardware_table, limit_table
 from isomould.documents.packing import packing_tables
 from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
@@ -16,6 +17,7 @@ from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table
 from isomould.documents.title_block import Logo
+from isomould.parts.details.fittings import Fitting, make_fittings
 from isomould.parts.plates import Shape
 from isomould.parts.solid import Solid
 from isomould.parts.strips import Strip, unroll_strips
@@ -73,6 +75,12 @@ class Delivery:
         return set_out(self.design.kit, project.members.section.depth, project.project.datum)
 
     @cached_property
+    def fittings(self) -> tuple[Fitting, ...]:
+        """Caps and end plates."""
+        kit = self.design.kit
+        return make_fittings(kit.nodes, kit.joints, kit.members)
+
+    @cached_property
     def strips(self) -> tuple[Strip, ...]:
         """The strips that the project asks for, unrolled."""
         mesh, asked = self.design.kit.mesh, self.design.project.deliver.strips
@@ -85,6 +93,11 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     settings = kit_settings(design.project)
     drawn = design.project.deliver.drawings
     tables = part_tables(design.kit, settings, delivery.solids, cutting.placed, cutting.positions, drawn=drawn)
+    about = [
+        limit_table(design.kit),
+        hardware_table(design.kit),
+        fitting_table(delivery.fittings, settings.members.density),
+    ]
     sheets = sheet_table(cutting.sheets, cutting.stock)
     bars = (bar_table(cutting.bars, cutting.stock),) if cutting.bars else ()
     strips = (strip_table(delivery.strips),) if delivery.strips else ()
@@ -92,4 +105,5 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     kit = (delivery.kit,) if delivery.kit else ()
     site = (setting_out_table(delivery.setting_out), *packing_tables(tables))
     families = (families_table(delivery.compared),) if delivery.compared else ()
-    return (*tables, *site, sheets, *bars, *strips, *revision, *kit, *families)
+    known = [table for table in about if len(table.frame)]
+    return (*tables, *known, *site, sheets, *bars, *strips, *revision, *kit, *families)

@@ -7,11 +7,12 @@ from isomould.arrays import Floats
 from isomould.delivery.goods import Delivery
 from isomould.documents.cut_sheets import part_drawing, sheet_drawing
 from isomould.documents.drawing import CutDrawing
-from isomould.documents.member_files import member_drawing, member_nc_parts
+from isomould.documents.member_files import fitting_drawing, member_drawing, member_nc_parts
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
+from isomould.parts.details.fittings import Fitting
 from isomould.parts.members import MemberShape
 from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
@@ -23,11 +24,11 @@ from isomould.writers.settings import DeliverSettings
 
 @dataclass(frozen=True, eq=False)
 class _PartFile:
-    """A part file that is to be written: the outline of a panel, or a member."""
+    """A part file that is to be written: the outline of a panel, a member or a fitting."""
 
     folder: Path
     name: str
-    part: Floats | MemberShape
+    part: Floats | MemberShape | Fitting
     asked: DeliverSettings
     orientation: str | None
 
@@ -47,10 +48,11 @@ def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> Non
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
     kit, asked = delivery.design.kit, delivery.design.project.deliver
     orientation = _orientation(delivery.design.project.panels)
-    parts: dict[str, Floats | MemberShape] = {
+    parts: dict[str, Floats | MemberShape | Fitting] = {
         f"panels/{mark}": outline for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
     }
     parts |= {f"members/{mark}": shape for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)}
+    parts |= {f"fittings/{fitting.mark}": fitting for fitting in delivery.fittings if fitting.outline}
     spread(_write_part, [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()])
     layout = delivery.cutting.sheets
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
@@ -74,6 +76,8 @@ def _part_drawing(file: _PartFile) -> CutDrawing:
     mark = file.name.rpartition("/")[2]
     if isinstance(file.part, MemberShape):
         return member_drawing(mark, file.part)
+    if isinstance(file.part, Fitting):
+        return fitting_drawing(file.part)
     return part_drawing(mark, file.part, orientation=file.orientation)
 
 

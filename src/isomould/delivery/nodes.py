@@ -3,9 +3,11 @@
 import json
 from pathlib import Path
 
+from isomould.arrays import Floats, Ints
 from isomould.delivery.goods import Delivery
 from isomould.documents.base_drawings import plate_drawing, stem_drawing
 from isomould.documents.node_plans import drum_plan
+from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.solid import Solid
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
@@ -19,20 +21,25 @@ def write_nodes(folder: Path, delivery: Delivery) -> None:
         write_3mf(folder / f"{mark}.3mf", solid.vertices, solid.triangles, mark)
         write_stl(folder / f"{mark}.stl", solid.vertices, solid.triangles)
     _write_plans(folder, delivery)
+    for fitting in delivery.fittings:
+        if fitting.solid:
+            write_3mf(folder.parent / "fittings" / f"{fitting.mark}.3mf", *_surface(fitting.solid), fitting.mark)
     records = {mark: _solid_record(solid) for mark, solid in zip(marks, delivery.solids, strict=True)}
     write_bytes(folder / "solids.json", (json.dumps(records, indent=1, allow_nan=False) + "\n").encode())
 
 
 def _write_plans(folder: Path, delivery: Delivery) -> None:
-    """Write the plans of the drums, and of supports their base plates: those carry the mark alone."""
+    """Write the plans of slotted drums, and of supports their base plates: those carry the mark alone."""
     kit, project = delivery.design.kit, delivery.design.project
-    rows = zip(kit.nodes.marks, kit.nodes.arms, kit.drum.height.tolist(), kit.bases, strict=True)
-    for mark, arms, height, base in rows:
-        plan = drum_plan(mark, arms, kit.drum, project.nodes.slot_end, height)
-        files = {f"{mark}-drum" if base else mark: plan}
-        files |= {mark: plate_drawing(mark, base), f"{mark}-stem": stem_drawing(mark, base)} if base else {}
-        for name, drawing in files.items():
+    for mark, joint, base in zip(kit.nodes.marks, kit.joints, kit.bases, strict=True):
+        plan = {f"{mark}-drum" if base else mark: drum_plan(mark, joint)} if isinstance(joint, SlottedJoint) else {}
+        plates = {mark: plate_drawing(mark, base), f"{mark}-stem": stem_drawing(mark, base)} if base else {}
+        for name, drawing in (plan | plates).items():
             write_dxf(folder / f"{name}.dxf", drawing, project.deliver.layers)
+
+
+def _surface(solid: Solid) -> tuple[Floats, Ints]:
+    return solid.vertices, solid.triangles
 
 
 def _solid_record(solid: Solid) -> dict[str, float | int | str]:

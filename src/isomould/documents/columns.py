@@ -52,6 +52,9 @@ TABLES: dict[str, tuple[str, ...]] = {
             bottom_x_mm bottom_y_mm bottom_z_mm""",
         "packing": "crate location mark members panels",
         "crates": "crate part mark quantity mass_kg total_mass_kg locations",
+        "node_limits": "mark what value_mm required_mm margin_mm",
+        "hardware": "mark quantity item size standard pieces total_pieces",
+        "fittings": "mark quantity kind size mass_kg total_mass_kg coated_area_m2 file",
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",
@@ -80,6 +83,7 @@ _DECIMALS = {"mm": 3, "deg": 4, "kg": 3, "m2": 12, "cm3": 3, "percent": 3}
 _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
     **dict.fromkeys(("axis_x", "axis_y", "axis_z", "ref_x", "ref_y", "ref_z"), 9),
     **dict.fromkeys(("value", "rate", "amount", "price"), 12),
+    **dict.fromkeys(("total_pieces",), 0),
     **dict.fromkeys((name for name in TABLES["repetition"] if name.endswith("_cost")), 12),
     **dict.fromkeys(("worst", "limit"), None),
     **dict.fromkeys(("aspect",), 3),
@@ -98,6 +102,8 @@ _TOTALS: dict[str, frozenset[str]] = {
     "nodes": frozenset(("quantity", "total_mass_kg")),
     "members": frozenset(("quantity", "total_mass_kg")),
     "panels": frozenset(("quantity", "total_area_m2", "total_mass_kg")),
+    "hardware": frozenset(("total_pieces",)),
+    "fittings": frozenset(("quantity", "total_mass_kg")),
     "sheets": frozenset(("parts", "part_area_m2", "cut_length_mm", "cuts", "price")),
     "bars": frozenset(("pieces", "used_mm", "offcut_mm", "price")),
     "cost": frozenset(("amount",)),

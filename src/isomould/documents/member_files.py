@@ -5,7 +5,9 @@ import numpy as np
 from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing
 from isomould.documents.holes import front_holes
-from isomould.documents.nc_parts import Blank, MassUnit, NcPart, nc_part, plate_profile
+from isomould.documents.nc_parts import Blank, MassUnit, NcPart, NcProfile, nc_part, plate_profile, tube_profile
+from isomould.parts.catalogue import AnySection, PlateSection
+from isomould.parts.details.fittings import Fitting
 from isomould.parts.members import MemberParts, MemberShape
 from isomould.parts.settings import MemberSettings
 
@@ -15,12 +17,35 @@ def member_drawing(mark: str, shape: MemberShape) -> CutDrawing:
     return part_drawing(mark, shape.outline, inner=front_holes(shape.holes), direction=True)
 
 
+def fitting_drawing(fitting: Fitting) -> CutDrawing:
+    """Draw a flat fitting.
+
+    Raises
+    ------
+    ValueError
+        If the fitting is not flat.
+    """
+    if fitting.outline is None:
+        message = f"{fitting.mark} is turned: it has no outline"
+        raise ValueError(message)
+    outline, bulges = fitting.outline
+    return part_drawing(fitting.mark, outline, bulges, front_holes(fitting.holes))
+
+
 def member_nc_parts(members: MemberParts, asked: MemberSettings, unit: MassUnit) -> tuple[NcPart, ...]:
     """Give the NC1 file of every member class, in the order of the marks."""
-    section = asked.section
-    profile = plate_profile(section.name, section.depth, section.thickness, asked.density, unit)
     rows = zip(members.marks, members.classes.quantity.tolist(), members.shapes, strict=True)
-    return tuple(nc_part(_blank(mark, quantity, shape, asked.grade), profile) for mark, quantity, shape in rows)
+    return tuple(
+        nc_part(_blank(mark, quantity, shape, asked.grade), _profile(shape.section, asked.density, unit))
+        for mark, quantity, shape in rows
+    )
+
+
+def _profile(section: AnySection, density: float, unit: MassUnit) -> NcProfile:
+    if isinstance(section, PlateSection):
+        return plate_profile(section.name, section.depth, section.thickness, density, unit)
+    outer, _ = section.radii
+    return tube_profile(section.name, (section.depth, section.width), section.wall, outer, density)
 
 
 def _blank(mark: str, quantity: int, shape: MemberShape, grade: str) -> Blank:
@@ -30,8 +55,9 @@ def _blank(mark: str, quantity: int, shape: MemberShape, grade: str) -> Blank:
 def _notes(shape: MemberShape) -> tuple[str, ...]:
     """Long and short points along top and bottom, the end cuts, and how the part lies."""
     start, end = np.round(np.degrees(shape.end_angle), 2) + 0.0
+    contour = ", IN CONTOUR" if isinstance(shape.section, PlateSection) else ""
     return (
         f"TOP {shape.top_length:.2f} BOTTOM {shape.bottom_length:.2f}",
-        f"END CUTS {start:.2f} {end:.2f} DEG, IN CONTOUR",
+        f"END CUTS {start:.2f} {end:.2f} DEG{contour}",
         "START LEFT, OUTSIDE UP",
     )

@@ -8,6 +8,7 @@ from isomould.documents.numbers import round_to
 from isomould.documents.table import Table, make_table
 from isomould.form.mesh import NodeKind
 from isomould.nesting.layout import BarLayout, Layout
+from isomould.parts.details.joint import tightest
 from isomould.parts.kit import Kit
 from isomould.parts.solid import Solid
 
@@ -29,8 +30,8 @@ def kit_facts(kit: Kit) -> tuple[Fact, ...]:
         ("Member classes", len(kit.members.marks), ""),
         ("Panels", len(mesh.face_ij), ""),
         ("Panel classes", len(kit.panels.marks), ""),
-        ("Drum diameter", kit.drum.diameter, "mm"),
-        ("Smallest web between slots", kit.drum.web, "mm"),
+        ("Drum diameter", kit.joints[0].diameter, "mm"),
+        *((f"Tightest {name}", value, "mm") for name, value, _ in tightest(kit.joints)),
         ("Largest beam mismatch", float(kit.mismatch.max()), "mm"),
         ("Largest beam mismatch at regular inner nodes", _inner_mismatch(kit), "mm"),
         ("Smallest bearing of a panel", float(kit.panels.bearing.min()), "mm"),

@@ -16,7 +16,7 @@ from isomould.form.mesh import Family, NodeKind
 from isomould.parts.kit import Kit, KitSettings
 from isomould.parts.members import TURNED
 from isomould.parts.outline import area, sides
-from isomould.parts.settings import PanelSettings
+from isomould.parts.settings import MemberSettings, PanelSettings
 from isomould.parts.solid import Solid
 
 Columns = Mapping[str, Sequence[object]]
@@ -70,38 +70,39 @@ def part_tables(
 
 
 def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn: bool) -> Columns:
-    nodes, drum, asked = kit.nodes, kit.drum, settings.nodes
+    nodes, joints, asked = kit.nodes, kit.joints, settings.nodes
     count = len(nodes.marks)
     volume = np.array([solid.volume for solid in solids])
     steel = volume + [base.volume if base else 0.0 for base in kit.bases]
-    bar = asked.diameter_step * np.ceil(np.round((drum.diameter + asked.bar_allowance) / asked.diameter_step, 9))
-    blank = np.round(drum.height + asked.facing_allowance, 6)
+    diameter, height = (np.array(values) for values in zip(*((j.diameter, j.height) for j in joints), strict=True))
+    bar = asked.diameter_step * np.ceil(np.round((diameter + asked.bar_allowance) / asked.diameter_step, 9))
+    blank = np.round(height + asked.facing_allowance, 6)
     deviation = _worst(nodes.deviation, nodes.classes.of, count)
-    slots = [len(arms.slotted.azimuth) for arms in nodes.arms]
+    slots, facets, holes = (list(counts) for counts in zip(*(joint.counts for joint in joints), strict=True))
     return {
         "mark": list(nodes.marks),
         "quantity": nodes.classes.quantity.tolist(),
         "kind": [NodeKind(kind).word for kind in nodes.kind],
         "valence": [len(arms.azimuth) for arms in nodes.arms],
         "handed": list(nodes.handed),
-        **_arm_columns(kit, settings.members.section.name),
-        "drum_diameter_mm": [drum.diameter] * count,
-        "drum_height_mm": drum.height.tolist(),
+        **_arm_columns(kit, settings.members),
+        "drum_diameter_mm": diameter.tolist(),
+        "drum_height_mm": height.tolist(),
         "mass_kg": (steel * asked.density * _KG_PER_MM3).tolist(),
         "volume_cm3": (volume / 1e3).tolist(),
         "coated_area_m2": [solid.surface / 1e6 for solid in solids],
-        "bar_diameter_mm": [float(bar)] * count,
+        "bar_diameter_mm": bar.tolist(),
         "blank_length_mm": blank.tolist(),
         "removed_volume_cm3": ((np.pi / 4 * bar**2 * blank - volume) / 1e3).tolist(),
         "slots": slots,
-        "facets": [0] * count,
-        "holes": [int(drum.bore > 0)] * count,
+        "facets": facets,
+        "holes": holes,
         **_base_columns(kit, asked.density),
-        "weld_length_mm": [2.0 * height * arms for height, arms in zip(drum.height, slots, strict=True)],
-        "max_deviation_mm": (deviation * drum.radius).tolist(),
+        "weld_length_mm": [joint.weld_length for joint in joints],
+        "max_deviation_mm": (deviation * diameter / 2).tolist(),
         "max_deviation_deg": np.degrees(deviation).tolist(),
         "solid_file": [f"nodes/{mark}.3mf" for mark in nodes.marks],
-        "drawing_file": _files("nodes", nodes.marks, drawn=drawn),
+        "drawing_file": _node_files(kit, drawn=drawn),
     }
 
 
@@ -126,6 +127,13 @@ def sheet_of(book: str, number: int) -> str:
     return f"drawings/{book}.pdf#page={number + 1}"
 
 
+def _node_files(kit: Kit, *, drawn: bool) -> list[str]:
+    """Faceted nodes have no plan for a machine; all others have one, or their base plate."""
+    planned = [joint.counts[1] == 0 or base is not None for joint, base in zip(kit.joints, kit.bases, strict=True)]
+    files = _files("nodes", kit.nodes.marks, drawn=drawn)
+    return [names if plan else names.partition(";")[2] for names, plan in zip(files, planned, strict=True)]
+
+
 def _files(kind: str, marks: Sequence[str], endings: Sequence[str] = ("dxf",), *, drawn: bool) -> list[str]:
     """Name the files of every class: its machine files, and its sheet where there are drawings."""
     sheets = [[sheet_of(kind, k)] if drawn else [] for k in range(len(marks))]
@@ -133,14 +141,14 @@ def _files(kind: str, marks: Sequence[str], endings: Sequence[str] = ("dxf",), *
     return [";".join(files + sheet) for files, sheet in zip(made, sheets, strict=True)]
 
 
-def _arm_columns(kit: Kit, section: str) -> Columns:
+def _arm_columns(kit: Kit, members: MemberSettings) -> Columns:
     columns: dict[str, list[object]] = {}
     for k in range(max(len(arms.azimuth) for arms in kit.nodes.arms)):
         there = [arms if k < len(arms.azimuth) else None for arms in kit.nodes.arms]
         columns[f"azimuth_{k + 1}_deg"] = [arms and float(np.degrees(arms.azimuth[k])) for arms in there]
         columns[f"elevation_{k + 1}_deg"] = [arms and float(np.degrees(arms.elevation[k])) for arms in there]
         columns[f"family_{k + 1}"] = [arms and Family(arms.family[k]).word for arms in there]
-        columns[f"section_{k + 1}"] = [arms and section for arms in there]
+        columns[f"section_{k + 1}"] = [arms and members.of(arms.family[k]).name for arms in there]
     return columns
 
 
@@ -166,7 +174,7 @@ def _node_instances(kit: Kit, around: Neighbours) -> Columns:
         "torsion_deg": np.degrees(kit.torsion).tolist(),
         "members": _lists(members, around.node_edges),
         "panels": _lists(panels, around.node_faces, kept=around.node_edges >= 0),
-        "deviation_mm": (nodes.deviation * kit.drum.radius).tolist(),
+        "deviation_mm": (nodes.deviation * kit.joints[0].radius).tolist(),
         "deviation_deg": np.degrees(nodes.deviation).tolist(),
     }
 
@@ -191,12 +199,12 @@ def _lists(names: np.ndarray, rows: Ints, kept: np.ndarray | None = None) -> lis
 
 def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
     members, asked = kit.members, settings.members
-    shapes, thickness = members.shapes, asked.section.thickness
+    shapes = members.shapes
     return {
         "mark": list(members.marks),
         "quantity": members.classes.quantity.tolist(),
         "family": [Family(family).word for family in members.family],
-        "section": [asked.section.name] * len(shapes),
+        "section": [shape.section.name for shape in shapes],
         "grade": [asked.grade] * len(shapes),
         "system_length_mm": [shape.system_length for shape in shapes],
         "top_length_mm": [shape.top_length for shape in shapes],
@@ -206,8 +214,8 @@ def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
         "end_angle_end_deg": [float(np.degrees(shape.end_angle[1])) for shape in shapes],
         "set_back_start_mm": [shape.set_back[0] for shape in shapes],
         "set_back_end_mm": [shape.set_back[1] for shape in shapes],
-        "mass_kg": [shape.area * thickness * asked.density * _KG_PER_MM3 for shape in shapes],
-        "coated_area_m2": [(2 * shape.area + shape.perimeter * thickness) / 1e6 for shape in shapes],
+        "mass_kg": [shape.volume * asked.density * _KG_PER_MM3 for shape in shapes],
+        "coated_area_m2": [shape.paint_area / 1e6 for shape in shapes],
         "files": _files("members", members.marks, ("dxf", "nc1"), drawn=drawn),
     }
 

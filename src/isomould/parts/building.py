@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from isomould.arrays import Floats
+from isomould.parts.bodies import member_body
 from isomould.parts.kit import Kit, KitSettings
 from isomould.parts.members import MemberParts
 from isomould.parts.nodes import NodeParts
 from isomould.parts.panels import PanelParts
-from isomould.parts.plates import Shape, extrude, hole_contour
+from isomould.parts.plates import Shape, extrude, shape_of
 from isomould.parts.poses import member_poses, node_poses, panel_poses
 from isomould.parts.solid import Solid
 
@@ -37,11 +38,10 @@ class Standing:
 
 def make_shapes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> dict[str, Shape]:
     """Give one shape per mark, in the frame of its class: nodes, members, panels, bases."""
-    half, thickness = settings.members.section.thickness / 2, settings.panels.thickness
+    thickness = settings.panels.thickness
     shapes = {mark: Shape(s.vertices, s.triangles) for mark, s in zip(kit.nodes.marks, solids, strict=True)}
     shapes |= {
-        mark: extrude(shape.outline, -half, half, map(hole_contour, shape.holes))
-        for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)
+        mark: shape_of(member_body(shape)) for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)
     }
     return (
         shapes

@@ -13,6 +13,9 @@ from isomould.errors import Refused
 from isomould.form.mesh import Mesh
 from isomould.parts.arms import across, normalised
 
+_ON_LINE = 1e-9
+"""Points that are less far (mm) outside a side are on it."""
+
 _SHARE = 0.5
 """Of a side, what chamfers at its two ends may take together."""
 
@@ -89,13 +92,25 @@ def refuse_long_chamfers(mesh: Mesh, corners: Floats, legs: Floats, names: list[
 def chamfered(outline: Floats, legs: Floats) -> Floats:
     """Cut the corners (n, 2) of an outline by chamfers with the legs (n,); corners with none stay.
 
-    The result begins with the first side still.
+    The result begins with the first side still. New corners are rounded to the inside, so that the part lies within
+    the blank that is nested in its place.
 
     >>> square = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
     >>> chamfered(square, np.array([2.0, 0.0, 0.0, 0.0])).tolist()
     [[2.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 2.0]]
     """
     ways = [normalised(np.roll(outline, step, axis=0) - outline) for step in (1, -1)]
-    both = np.stack([outline + leg_way for leg_way in (legs[:, None] * way for way in ways)], axis=1)
+    sides = [np.stack([-way[:, 1], way[:, 0]], axis=-1) * turn for way, turn in zip(ways, (-1, 1), strict=True)]
+    exact = [outline + legs[:, None] * way for way in ways]
+    both = np.stack([_rounded_in(*sets, outline) for sets in zip(exact, sides, strict=True)], axis=1)
     kept = np.stack([np.ones(len(legs), dtype=bool), legs > 0], axis=1)
-    return read_only(np.roll(round_um(both[kept]) + 0.0, -int(legs[0] > 0), axis=0))
+    return read_only(np.roll(both[kept] + 0.0, -int(legs[0] > 0), axis=0))
+
+
+def _rounded_in(points: Floats, inward: Floats, on: Floats) -> Floats:
+    """Round points (n, 2) to the nearest 0.001 mm on the inner side of lines through points with these normals."""
+    steps = np.stack(np.meshgrid(*[[-0.001, 0.0, 0.001]] * 2), axis=-1).reshape(-1, 2)
+    near = round_um(round_um(points)[:, None] + steps)
+    outside = np.einsum("nki,ni->nk", near - on[:, None], inward) < -_ON_LINE
+    away = np.where(outside, np.inf, np.linalg.norm(near - points[:, None], axis=-1))
+    return near[np.arange(len(points)), away.argmin(axis=1)]

@@ -1,5 +1,6 @@
 """What is worked into a part beside its outline."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -30,3 +31,35 @@ class Hole:
     face: Face = "front"
     lengthening: float = 0.0
     thread: str = ""
+
+    @property
+    def area(self) -> float:
+        """Area of the opening, mm²."""
+        return math.pi / 4 * self.diameter**2 + self.diameter * self.lengthening
+
+    @property
+    def perimeter(self) -> float:
+        """Length of its contour, mm."""
+        return math.pi * self.diameter + 2 * self.lengthening
+
+
+@dataclass(frozen=True)
+class EndPlate:
+    """A plate inside the end of a hollow section, flush with its cut. Lengths in mm.
+
+    Attributes
+    ----------
+    thickness, diameter : float
+        Of the plate, and of its bolt holes.
+    bolts : tuple of float
+        Where they are, on the middle line of the plate: the y of the member's outline.
+    """
+
+    thickness: float
+    diameter: float
+    bolts: tuple[float, ...]
+
+    @property
+    def hole_area(self) -> float:
+        """Area of all bolt holes, mm²."""
+        return len(self.bolts) * math.pi / 4 * self.diameter**2

@@ -9,7 +9,9 @@ from isomould.errors import Note
 from isomould.form.mesh import Mesh
 from isomould.form.trim import Cut
 from isomould.parts.arms import Arms, find_arms
-from isomould.parts.drum import Drum, size_drum
+from isomould.parts.corners import Stacks
+from isomould.parts.details import size_nodes
+from isomould.parts.details.joint import Joint
 from isomould.parts.members import MemberParts, make_members
 from isomould.parts.nodes import NodeParts, classify_nodes
 from isomould.parts.panels import PanelParts, make_panels
@@ -38,10 +40,12 @@ class Kit:
     ----------
     mesh, arms
         What they were made from.
-    nodes, drum, members, panels
+    nodes, members, panels
         Classes with marks, instances with locations.
     bases : tuple of Base or None
         Per node class: what a support stands on.
+    joints
+        The node classes as their detail sizes them.
     mismatch, torsion : (n,) float, mm and rad
         Of every node.
     """
@@ -49,7 +53,7 @@ class Kit:
     mesh: Mesh
     arms: Arms
     nodes: NodeParts
-    drum: Drum
+    joints: tuple[Joint, ...]
     members: MemberParts
     panels: PanelParts
     bases: tuple[Base | None, ...]
@@ -69,6 +73,14 @@ def standing(mesh: Mesh, settings: KitSettings) -> Floats:
     return up_directions(mesh, settings.cuts if settings.nodes.base_plate else ())
 
 
+def _stacks(nodes: NodeParts, joints: tuple[Joint, ...]) -> Stacks | None:
+    """Say what stands proud on the nodes: caps and bolt heads, or faceted drums; plain drums never do."""
+    if not any(joint.proud for joint in joints):
+        return None
+    top = np.array([joint.stack_height for joint in joints])[nodes.classes.of]
+    return Stacks(max(joint.stack_radius for joint in joints), top)
+
+
 def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) -> Kit:
     """Sort nodes, members and panels into classes and size one part of each.
 
@@ -84,8 +96,9 @@ def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) 
     torsion = node_torsion(mesh, arms)
     refuse_torsion(torsion, nodes.locations)
     section = settings.members.section
-    drum = size_drum(nodes.arms, section, settings.nodes)
-    members = make_members(mesh, arms, nodes, drum, settings.members, settings.tolerance)
-    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance)
-    bases = make_bases(nodes, drum, section, settings.nodes.base_plate)
-    return Kit(mesh, arms, nodes, drum, members, panels, bases, beam_mismatch(arms, section.depth), torsion)
+    joints = size_nodes(nodes, settings.members, settings.nodes)
+    members = make_members(mesh, arms, nodes, joints, settings.members, settings.tolerance)
+    stacks = _stacks(nodes, joints)
+    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance, stacks)
+    bases = make_bases(nodes, joints, settings.members, settings.nodes.base_plate)
+    return Kit(mesh, arms, nodes, joints, members, panels, bases, beam_mismatch(arms, section.depth), torsion)

@@ -37,15 +37,15 @@ class NodeArms:
         return np.diff(self.azimuth, append=2 * np.pi)
 
     @property
-    def slotted(self) -> "NodeArms":
+    def held(self) -> "NodeArms":
         """The arms that the node holds: all but sills, their azimuths still from arm 1."""
         held = self.family != Family.SILL
         return NodeArms(self.azimuth[held], self.elevation[held], self.family[held])
 
     @property
-    def slot_gap(self) -> Floats:
-        """Azimuth (s,) rad from slot to slot; none at a corner where sills meet and nothing else."""
-        azimuth = self.slotted.azimuth
+    def held_gap(self) -> Floats:
+        """Azimuth (s,) rad from each of the held arms to the next; none where sills meet and nothing else."""
+        azimuth = self.held.azimuth
         return np.diff(azimuth, append=azimuth[:1] + 2 * np.pi)
 
 

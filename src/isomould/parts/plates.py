@@ -8,7 +8,7 @@ import numpy as np
 
 from isomould.arrays import Floats, Ints, read_only
 from isomould.parts.features import Hole
-from isomould.parts.solid import facets
+from isomould.parts.kernel import facets
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,9 +1,11 @@
 """The `[members]`, `[nodes]`, `[panels]` and `[tolerances]` tables of the project file."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self, cast
 
-from pydantic import Field
+from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
+from isomould.parts.catalogue import AnySection, PlateSection, Section
+from isomould.parts.hardware import BoltSize
 from isomould.settings import Settings
 from isomould.units import (
     Flag,
@@ -14,27 +16,13 @@ from isomould.units import (
 )
 
 
-class PlateSection(Settings):
-    """A plate on edge: `depth` in the plane of the member, `thickness` across it."""
-
-    kind: Literal["plate"] = "plate"
-    depth: PositiveLength
-    thickness: PositiveLength
-
-    @property
-    def name(self) -> str:
-        """Designation in schedules, as shops write flat bars.
-
-        >>> PlateSection(depth=200, thickness=12).name
-        'FL200*12'
-        """
-        return f"FL{self.depth:g}*{self.thickness:g}"
-
-
 class MemberSettings(Settings):
-    """The `[members]` table."""
+    """The `[members]` table; families without a section of their own have the first one."""
 
-    section: PlateSection = Field(default_factory=lambda: PlateSection(depth=200.0, thickness=12.0))
+    section: Section = Field(default_factory=lambda: PlateSection(depth=200.0, thickness=12.0))
+    generatrix: Section | None = None
+    parallel: Section | None = None
+    sill: Section | None = None
     grade: Annotated[str, Field(min_length=1, max_length=24)] = "S355"
     density: PositiveNumber = 7850.0
     """kg/m³"""
@@ -42,6 +30,19 @@ class MemberSettings(Settings):
     """Smallest length of a member's top and bottom edges between its end cuts."""
     max_end_angle_deg: PositiveNumber = 60.0
     """Largest end cut that the saw can make, measured from square."""
+
+    def of(self, family: int) -> AnySection:
+        """Give the section of a `Family`."""
+        return (self.generatrix, self.parallel, self.sill)[family] or self.section
+
+    @model_validator(mode="after")
+    def _one_depth(self) -> Self:
+        depths = {section.depth for section in (self.section, self.generatrix, self.parallel) if section}
+        if len(depths) > 1:
+            listed = " and ".join(f"{depth:g}" for depth in sorted(depths))
+            message = f"depths of {listed} mm: all members but sills have one depth, for the panels lie on them"
+            raise ValueError(message)
+        return self
 
 
 class BasePlateSettings(Settings):
@@ -58,21 +59,39 @@ class BasePlateSettings(Settings):
     """Between the plate's top and what stands over it."""
 
 
-class NodeSettings(Settings):
-    """The `[nodes]` table: a slotted drum (fabrication, Node solids)."""
+class HardwareSettings(Settings):
+    """The `[nodes.hardware]` table: the centre bolt of caps, or the bolts that hold hollow sections."""
 
-    detail: Literal["slotted"] = "slotted"
-    retention: Literal["weld"] = "weld"
-    slot_end: Literal["square", "round"] = "square"
+    bolt: BoltSize = "M12"
+    grade: Annotated[str, Field(min_length=1, max_length=12)] = "8.8"
+
+
+class CapSettings(Settings):
+    """The `[nodes.cap]` table: discs on both ends of a drum, whose lips hold the plates by notches."""
+
+    thickness: PositiveLength = 8.0
+    lip_width: PositiveLength = 5.0
+    lip_height: PositiveLength = 6.0
+    rim: PositiveLength = 5.0
+    """From the lip to the edge of the cap, which is as wide as the drum."""
     clearance: NonNegativeLength = 0.5
-    """Width of a slot beyond the plate's thickness."""
-    end_gap: NonNegativeLength = 2.0
-    """Between the plate's end and the slot floor, and between its shoulder and the drum."""
-    slot_depth: PositiveLength | None = None
+    """Around the lip, in the groove of the drum and in the notches."""
+    min_hook: PositiveLength = 8.0
+    """Smallest length of a tongue behind its notch."""
+
+
+class DrumSettings(Settings):
+    """What the `[nodes]` table says of every drum."""
+
+    hardware: HardwareSettings = HardwareSettings()
     drum_diameter: PositiveLength | None = None
     bore: NonNegativeLength = 20.0
+    end_gap: NonNegativeLength = 2.0
+    """Between the plate's end and the slot floor, between shoulders and drum, and between sills and nodes."""
     min_web: PositiveLength = 6.0
+    """Smallest web between neighbouring slots or holes."""
     min_core: PositiveLength = 8.0
+    """Between slots or holes and the bore."""
     diameter_step: PositiveLength = 5.0
     bar_allowance: NonNegativeLength = 2.0
     """Turned off the bar's diameter."""
@@ -95,6 +114,58 @@ class EdgeDeduction(Settings):
     boundary: NonNegativeLength = 0.0
     cut: NonNegativeLength = 0.0
     """Sides that a trimming plane made."""
+
+
+def _known_detail(value: object) -> object:
+    """Word what neither kind of table takes."""
+    if value != "slotted":
+        message = f"{value!r} is no node detail; one of 'slotted', 'faceted'"
+        raise ValueError(message)
+    return value
+
+
+class SlottedSettings(DrumSettings):
+    """The `[nodes]` table of slotted drums, for plates (fabrication, Node solids)."""
+
+    detail: Annotated[Literal["slotted"], BeforeValidator(_known_detail)] = "slotted"
+    retention: Literal["weld", "lipped-cap"] = "weld"
+    cap: CapSettings = CapSettings()
+    slot_end: Literal["square", "round"] = "square"
+    clearance: NonNegativeLength = 0.5
+    """Width of a slot beyond the plate's thickness."""
+    slot_depth: PositiveLength | None = None
+
+
+class FacetedSettings(DrumSettings):
+    """The `[nodes]` table of faceted drums, for hollow sections (fabrication, Node solids)."""
+
+    detail: Literal["faceted"] = "faceted"
+    facet_border: PositiveLength = 3.0
+    """Of a facet beside the member."""
+    facet_cover: NonNegativeLength = 3.0
+    """Of the drum above and below the members."""
+    facet_distance: PositiveLength | None = None
+    """From the work point to every facet."""
+    end_plate: PositiveLength = 12.0
+    """Thickness of the plates in the members' ends."""
+    bolt_spacing: PositiveLength | None = None
+    """Of the two bolts of deep members; half the depth without it."""
+    engagement: PositiveNumber = 1.25
+    """Least length of thread in the drum, in bolt diameters."""
+
+
+def _detail(value: object) -> str:
+    """Tell which detail a `[nodes]` table asks for."""
+    asked = (
+        cast("dict[str, object]", value).get("detail") if isinstance(value, dict) else getattr(value, "detail", None)
+    )
+    return "faceted" if asked == "faceted" else "slotted"
+
+
+NodeSettings = Annotated[
+    Annotated[SlottedSettings, Tag("slotted")] | Annotated[FacetedSettings, Tag("faceted")], Discriminator(_detail)
+]
+"""The `[nodes]` table."""
 
 
 class PanelSettings(Settings):

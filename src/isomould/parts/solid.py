@@ -8,17 +8,12 @@ from dataclasses import dataclass
 
 import manifold3d as m3
 import numpy as np
-import shapely
-import shapely.affinity
 
 from isomould.arrays import Floats, Ints, read_only
 from isomould.errors import IsomouldError
-from isomould.parts.drum import Drum
-from isomould.parts.nodes import NodeArms, NodeParts
+from isomould.parts.details.joint import Carving, Joint
+from isomould.parts.nodes import NodeParts
 
-CHORD = 0.002
-"""Largest distance (mm) between a round surface and its facets."""
-_OVERLAP = 5.0
 _NOISE = 1e-9
 
 
@@ -43,7 +38,7 @@ class Solid:
         Relative residuals of vol(A + B) = vol(A) + vol(B) − vol(A ∩ B), and of volume and area when the operands
         change places.
     analytic_volume : float, mm³
-        Cross-section times height, computed without the solid kernel.
+        Computed without the solid kernel.
     """
 
     vertices: Floats
@@ -62,8 +57,8 @@ class Solid:
         read_only(self.triangles)
 
 
-def make_solids(nodes: NodeParts, drum: Drum, slot_end: str) -> tuple[Solid, ...]:
-    """Build the drum of every node class.
+def make_solids(nodes: NodeParts, joints: tuple[Joint, ...]) -> tuple[Solid, ...]:
+    """Build the solid of every node class.
 
     Raises
     ------
@@ -71,14 +66,13 @@ def make_solids(nodes: NodeParts, drum: Drum, slot_end: str) -> tuple[Solid, ...
         If the solid kernel's result fails a check.
     """
     return tuple(
-        _make_solid(arms, drum, float(height), slot_end, mark)
-        for arms, height, mark in zip(nodes.arms, drum.height, nodes.marks, strict=True)
+        make_solid(joint.carve(), int(joint.bore > 0), mark) for joint, mark in zip(joints, nodes.marks, strict=True)
     )
 
 
-def _make_solid(arms: NodeArms, drum: Drum, height: float, slot_end: str, mark: str) -> Solid:
-    blank = _cylinder(drum.radius, height)
-    cutters = _cutters(arms, drum, height, slot_end)
+def make_solid(carving: Carving, genus: int, mark: str) -> Solid:
+    """Cut a solid out of its blank and check it; `genus` is the number of its through holes."""
+    blank, cutters = carving.blank, carving.cutters
     body = blank - cutters
     _require(body.status() == m3.Error.NoError and not body.is_empty(), mark, f"status {body.status()}")
     together, overlap = blank + cutters, blank ^ cutters
@@ -95,9 +89,9 @@ def _make_solid(arms: NodeArms, drum: Drum, height: float, slot_end: str, mark: 
         components=len(body.decompose()),
         inclusion_exclusion=abs(together.volume() + overlap.volume() - sum_of_both) / sum_of_both,
         commutativity=_difference(cutters + blank, together),
-        analytic_volume=_section_area(arms, drum, slot_end) * height,
+        analytic_volume=carving.volume,
     )
-    _check(solid, blank.volume() - overlap.volume(), drum.bore > 0, mark)
+    _check(solid, blank.volume() - overlap.volume(), genus, mark)
     return solid
 
 
@@ -107,62 +101,16 @@ def _difference(one: m3.Manifold, other: m3.Manifold) -> float:
     return max(volume, abs(one.surface_area() - other.surface_area()) / other.surface_area())
 
 
-def _cylinder(radius: float, height: float) -> m3.Manifold:
-    return m3.Manifold.cylinder(height, radius, radius, facets(radius), center=True)
-
-
-def facets(radius: float) -> int:
-    """Number of facets, a multiple of four, that keeps a round surface within `CHORD` of the true one.
-
-    >>> facets(50.0)
-    352
-    """
-    return 4 * int(np.ceil(np.pi / np.arccos(1 - CHORD / max(radius, 1.0)) / 4))
-
-
-def _cutters(arms: NodeArms, drum: Drum, height: float, slot_end: str) -> m3.Manifold:
-    """Slots and bore, longer than the drum at every free end."""
-    tall = height + 2 * _OVERLAP
-    slots = [_slot(drum, tall, slot_end).rotate((0.0, 0.0, float(np.degrees(a)))) for a in arms.slotted.azimuth]
-    bore = [_cylinder(drum.bore / 2, tall)] if drum.bore > 0 else []
-    return m3.Manifold.batch_boolean([*slots, *bore], m3.OpType.Add)
-
-
-def _slot(drum: Drum, tall: float, slot_end: str) -> m3.Manifold:
-    """One slot towards +X: its full width reaches from the slot floor beyond the rim."""
-    reach = drum.radius + _OVERLAP - drum.slot_floor
-    box = m3.Manifold.cube((reach, drum.slot_width, tall), center=True)
-    box = box.translate((drum.slot_floor + reach / 2, 0.0, 0.0))
-    if slot_end == "square":
-        return box
-    return box + _cylinder(drum.slot_width / 2, tall).translate((drum.slot_floor, 0.0, 0.0))
-
-
-def _section_area(arms: NodeArms, drum: Drum, slot_end: str) -> float:
-    """Area (mm²) of the drum's cross-section by planar booleans, which share nothing with the solid kernel."""
-    slot = shapely.box(drum.slot_floor, -drum.slot_width / 2, drum.radius + _OVERLAP, drum.slot_width / 2)
-    if slot_end == "round":
-        slot = slot.union(_disc(drum.slot_width / 2, drum.slot_floor))
-    slots = [shapely.affinity.rotate(slot, float(a), origin=(0, 0), use_radians=True) for a in arms.slotted.azimuth]
-    bore = [_disc(drum.bore / 2)] if drum.bore > 0 else []
-    return float(_disc(drum.radius).difference(shapely.union_all([*slots, *bore])).area)
-
-
-def _disc(radius: float, x: float = 0.0) -> shapely.Polygon:
-    angle = np.arange(facets(radius)) * 2 * np.pi / facets(radius)
-    return shapely.Polygon(np.stack([x + radius * np.cos(angle), radius * np.sin(angle)], axis=-1))
-
-
-def _check(solid: Solid, expected: float, bored: bool, mark: str) -> None:
+def _check(solid: Solid, expected: float, genus: int, mark: str) -> None:
     """Hold a solid to proof V20–V22 and to its analytic volume."""
     _require(solid.components == 1, mark, f"{solid.components} components")
-    _require(solid.genus == int(bored), mark, f"genus {solid.genus}")
+    _require(solid.genus == genus, mark, f"genus {solid.genus}")
     _require(bool(np.isfinite(solid.vertices).all()), mark, "vertices that are not finite")
     _require(abs(solid.volume - expected) <= _NOISE * expected, mark, "a volume that its parts do not explain")
     _require(solid.inclusion_exclusion <= _NOISE, mark, f"inclusion–exclusion off by {solid.inclusion_exclusion:g}")
     _require(solid.commutativity <= _NOISE, mark, f"operands that do not commute: {solid.commutativity:g}")
     off = abs(solid.volume - solid.analytic_volume) / solid.analytic_volume
-    _require(off <= _NOISE, mark, f"a volume {off:g} off its cross-section times height")
+    _require(off <= _NOISE, mark, f"a volume {off:g} off the one computed without it")
 
 
 def _require(truth: bool, mark: str, found: str) -> None:

@@ -15,12 +15,13 @@ from isomould.errors import Refused
 from isomould.form.mesh import Family, Mesh, NodeKind
 from isomould.form.trim import Cut
 from isomould.parts.arms import normalised
-from isomould.parts.drum import Drum
+from isomould.parts.details.joint import Joint
+from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.features import Hole
 from isomould.parts.nodes import NodeArms, NodeParts
 from isomould.parts.outline import area, round_outline
 from isomould.parts.plates import Shape, extrude, hole_contour
-from isomould.parts.settings import BasePlateSettings, PlateSection
+from isomould.parts.settings import BasePlateSettings, MemberSettings
 
 _SEAT = 0.9
 """Share of the drum's chord through the work point that the stem carries at most."""
@@ -85,7 +86,7 @@ def up_directions(mesh: Mesh, cuts: Sequence[Cut]) -> Floats:
 
 
 def make_bases(
-    nodes: NodeParts, drum: Drum, section: PlateSection, settings: BasePlateSettings | None
+    nodes: NodeParts, joints: Sequence[Joint], members: MemberSettings, settings: BasePlateSettings | None
 ) -> tuple[Base | None, ...]:
     """Give the base of every node class; None for nodes that are no supports.
 
@@ -96,13 +97,16 @@ def make_bases(
     """
     if settings is None:
         return (None,) * len(nodes.marks)
+    if not all(isinstance(joint, SlottedJoint) for joint in joints):
+        found, limit = "base plates under faceted nodes", "base plates under slotted nodes, whose drums are symmetrical"
+        raise Refused("E-BASE-DETAIL", "nodes.base_plate", found, limit, "Leave nodes.base_plate out.")
     _refuse_holes(settings)
-    rows = zip(nodes.arms, nodes.up, drum.height.tolist(), nodes.marks, strict=True)
+    rows = zip(nodes.arms, nodes.up, joints, nodes.marks, strict=True)
     return tuple(
-        _make_base(arms, up, (drum.radius, height / 2), _reach(arms, up, drum, height, section), settings, mark)
+        _make_base(arms, up, (joint.radius, joint.height / 2), _reach(arms, up, joint, members), settings, mark)
         if up.any()
         else None
-        for arms, up, height, mark in rows
+        for arms, up, joint, mark in rows
     )
 
 
@@ -138,25 +142,26 @@ def _axes(up: Floats) -> Floats:
     return np.stack([x, np.cross(up, x), up])
 
 
-def _reach(arms: NodeArms, up: Floats, drum: Drum, height: float, section: PlateSection) -> float:
+def _reach(arms: NodeArms, up: Floats, joint: Joint, members: MemberSettings) -> float:
     """How far drum, members and sills reach below the work point."""
-    below = [drum.radius * np.hypot(up[0], up[1]) + height / 2 * abs(up[2])]
-    below += [section.depth / 2] * int((arms.family == Family.SILL).any())
-    below += [float(-(_end_corners(*arm, drum, section) @ up).min()) for arm in _held(arms)]
+    below = [radius * np.hypot(up[0], up[1]) + height * abs(up[2]) for radius, height in joint.stack]
+    below += [members.of(Family.SILL).depth / 2] * int((arms.family == Family.SILL).any())
+    below += [float(-(_end_corners(*arm, joint, members) @ up).min()) for arm in _held(arms)]
     return float(max(below))
 
 
-def _held(arms: NodeArms) -> list[tuple[float, float]]:
-    held = arms.slotted
-    return list(zip(held.azimuth.tolist(), held.elevation.tolist(), strict=True))
+def _held(arms: NodeArms) -> list[tuple[float, float, int]]:
+    held = arms.held
+    return list(zip(held.azimuth.tolist(), held.elevation.tolist(), held.family.tolist(), strict=True))
 
 
-def _end_corners(azimuth: float, elevation: float, drum: Drum, section: PlateSection) -> Floats:
+def _end_corners(azimuth: float, elevation: float, family: int, joint: Joint, members: MemberSettings) -> Floats:
     """Corners (4, 3) of a member's body at the drum."""
-    half, r = section.depth / 2, drum.shoulder
+    section, r = members.of(family), joint.radius + joint.clearance
+    half = section.depth / 2
     out, aside = np.array([np.cos(azimuth), np.sin(azimuth), 0.0]), np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
     z = [(side * half + r * np.sin(elevation)) / np.cos(elevation) for side in (1, -1)]
-    return np.array([r * out + np.array([0, 0, h]) + s * section.thickness / 2 * aside for h in z for s in (1, -1)])
+    return np.array([r * out + np.array([0, 0, h]) + s * section.width / 2 * aside for h in z for s in (1, -1)])
 
 
 def _stem(lean: float, rise: float, drum: tuple[float, float], level: float) -> Floats:

@@ -159,6 +159,8 @@ def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, 
     if detail["type"] == "extra_forbidden":
         known = _known_keys(path[:-1])
         near = difflib.get_close_matches(path[-1], known, 1, 0.5)
+        if path[-1] in known:
+            return field, "a key of another kind of this table", "the keys of its own", "See docs/project-file.md."
         hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
         return field, "unknown key", f"one of {', '.join(known)}", hint
     if detail["type"] == "missing":

@@ -17,7 +17,7 @@ from isomould.form.settings import (
     SurfaceSettings,
 )
 from isomould.nesting.settings import StockSettings
-from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings
+from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings, SlottedSettings
 from isomould.settings import Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 from isomould.writers.names import safe_name
@@ -125,7 +125,7 @@ class Project(Settings):
     generatrix: GeneratrixTable
     surface: SurfaceSettings = SurfaceSettings()
     members: MemberSettings = MemberSettings()
-    nodes: NodeSettings = NodeSettings()
+    nodes: NodeSettings = SlottedSettings()
     panels: PanelSettings = PanelSettings()
     tolerances: ToleranceTable = ToleranceTable()
     stock: StockSettings | None = None

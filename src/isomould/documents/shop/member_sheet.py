@@ -223,9 +223,3 @@ def _holes(holes: Sequence[Hole], lying: Paper, corner: tuple[float, float]) -> 
         items += grid(table, (corner[0] + left, corner[1] + top), SMALLEST)
         left += grid_size(table, SMALLEST)[0] + 4
     return items
-
-
-def plate_section(depth: float, thickness: float) -> tuple[Floats, ...]:
-    """Give the outline of a plate's section, mm."""
-    half = thickness / 2
-    return (np.array([[-half, -depth / 2], [half, -depth / 2], [half, depth / 2], [-half, depth / 2]]),)

@@ -94,15 +94,15 @@ def member_lengths(delivery: Delivery) -> Measured:
 
 
 def member_ends(delivery: Delivery) -> Measured:
-    """End cuts of every member as its class lies turned, in degrees: −elevation, and 0 on sills, which are square."""
+    """End cuts of every member as its class lies turned, in degrees: −elevation, and 0 where they are square."""
     mesh, count = delivery.mesh, len(delivery.mesh.edges)
     elevation = np.degrees(arms_of(mesh, mesh.node_axes).elevation.reshape(2, count).T)
     turned = pairs(delivery.table("member_instances"), "location", "turned")
     ends = _end_angles(delivery)
     where = zip(mesh.edge_mark, mesh.edge_location, strict=True)
     claimed = np.array([_as_turned(ends[str(mark)], turned[str(location)]) for mark, location in where])
-    expected = np.where((mesh.edge_family == "sill")[:, None], 0.0, -elevation)
-    off = abs(claimed - expected) if delivery.design.raw["node"]["detail"] == "slotted" else np.zeros_like(claimed)
+    square = (mesh.edge_family == "sill") | (delivery.design.raw["node"]["detail"] == "faceted")
+    off = abs(claimed - np.where(square[:, None], 0.0, -elevation))
     limit = float(delivery.design.raw["tolerances"]["angle_deg"]) + half_unit("angle_deg") + NOISE
     return worst_of(off.max(axis=1), mesh.edge_location, limit=limit)
 

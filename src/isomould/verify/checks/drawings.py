@@ -30,7 +30,7 @@ ROUNDING = 1.5e-3
 def machine_files(delivery: Delivery) -> Measured:
     """Read every drawing strictly and list what a machine would trip over."""
     folders = {"panels": delivery.panels, "members": delivery.members, "sheets": delivery.sheets}
-    folders |= {name: delivery.drawings(name) for name in ("nodes", ".")}
+    folders |= {name: delivery.drawings(name) for name in ("nodes", "fittings", ".")}
     folders |= {f"r12/{name}": found for name, found in delivery.twins.items()}
     named = [(f"{folder}/{d.name}.dxf", d) for folder, found in folders.items() for d in found.values()]
     problems = [f"{path}: {fault}" for path, drawing in named for fault in drawing_faults(drawing)]
@@ -42,8 +42,6 @@ def _missing(delivery: Delivery) -> list[str]:
     found = {"panels": delivery.panels, "members": delivery.members}
     marks = {name: set(texts(delivery.table(name), "mark")) for name in found}
     differing = {name: sorted(marks[name] ^ files.keys()) for name, files in found.items()}
-    if delivery.design.raw["member"].get("kind", "plate") != "plate":
-        differing["members"] = []  # hollow sections are cut from NC1, not from an outline
     return [f"{name}: {mark} in the schedule or the folder only" for name, rest in differing.items() for mark in rest]
 
 
@@ -183,8 +181,6 @@ def _drawing(drawings: dict[str, Drawing], mark: str) -> Drawing:
 
 def member_sizes(delivery: Delivery) -> Measured:
     """Lengths of the members' part files against the schedule: over all, along the top, along the bottom."""
-    if delivery.design.raw["member"].get("kind", "plate") != "plate":
-        raise NotApplicable("members are no plates")
     return _sizes(delivery, "members", delivery.members, _member_size)
 
 

@@ -122,10 +122,28 @@ def _nearest(one: Floats, other: Floats) -> Floats:
 
 
 def placed_parts(delivery: Delivery) -> Measured:
-    """Corners of the part files' outlines against those of the model's panels and plates, at both levels."""
-    drawings = delivery.panels | delivery.members
+    """Corners of the part files' outlines against those of the model's panels and plates, at both levels.
+
+    Hollow sections have round corners: of them the extents along and across are compared.
+    """
+    drawings, hollow = delivery.panels | delivery.members, _hollow(delivery)
     found = {mark: shape for mark, shape in delivery.model.shapes.items() if mark in drawings}
-    return worst_of([_off_outline(shape, drawings[mark]) for mark, shape in found.items()], list(found))
+    off = [(_off_extents if mark in hollow else _off_outline)(shape, drawings[mark]) for mark, shape in found.items()]
+    return worst_of(off, list(found))
+
+
+def _hollow(delivery: Delivery) -> set[str]:
+    """Marks of the members that are hollow sections."""
+    sections = delivery.design.raw["member"]["sections"]
+    named = pairs(delivery.table("members"), "mark", "section")
+    return {mark for mark, name in named.items() if sections[name]["kind"] == "rhs"}
+
+
+def _off_extents(shape: Solid, drawing: Drawing) -> float:
+    """Largest difference of the lowest and highest coordinates of an outline from those of the shape."""
+    points, own = one_outline(drawing).points, shape.vertices[:, :2]
+    low, high = points.min(axis=0) - own.min(axis=0), points.max(axis=0) - own.max(axis=0)
+    return float(abs(np.concatenate([low, high])).max())
 
 
 def _off_outline(shape: Solid, drawing: Drawing) -> float:

@@ -3,13 +3,14 @@
 import re
 import unicodedata
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.dxf import Drawing, Entity, Outline, area, one_outline, outlines_on
 from isomould.verify.read.nc1 import NcFile
-from isomould.verify.read.tables import Table, half_unit, number, texts
+from isomould.verify.read.tables import Table, half_unit, number, pairs, texts
 from isomould.verify.rules import Floats, Measured, Rule, Unreadable, faults, worst_of
 
 FORMAT = 0.01
@@ -19,9 +20,9 @@ _LENGTHS = re.compile(r"TOP (\d+\.\d+) BOTTOM (\d+\.\d+)")
 
 def contours(delivery: Delivery) -> Measured:
     """Contours and holes of the front against the part drawings, the largest distance of any point, mm."""
-    files = {mark: part for mark, part in _files(delivery).items() if part.code == "B"}
+    files = _files(delivery)
     off = [_contour_off(part, _drawing(delivery, mark)) for mark, part in files.items()]
-    return worst_of(off, list(files), none="no member is cut from a plate")
+    return worst_of(off, list(files))
 
 
 def _files(delivery: Delivery) -> dict[str, NcFile]:
@@ -39,9 +40,11 @@ def _drawing(delivery: Delivery, mark: str) -> Drawing:
 
 
 def _contour_off(part: NcFile, drawing: Drawing) -> float:
-    """Compare a part as drawn, moved to the lower left corner, with its file."""
+    """Compare a part as drawn, moved to the lower left corner, with its file; a tube is cut square, without contour."""
     drawn = one_outline(drawing)
     corner = drawn.points.min(axis=0)
+    if part.code == "M":
+        return np.inf if part.outer or part.inner else _holes_off(part, drawing, corner)
     if len(part.outer) != 1 or part.inner or part.outer[0][:, 2].any() or drawn.bulges.any():
         return np.inf
     return max(_loops_off(part.outer[0][:, :2], drawn.points - corner), _holes_off(part, drawing, corner))
@@ -114,31 +117,46 @@ def _plain(text: str) -> str:
 
 
 def sizes(delivery: Delivery) -> Measured:
-    """Lengths over all, along top and bottom against the schedule, depth and thickness against the design, mm."""
-    table, member, files = delivery.table("members"), delivery.design.raw["member"], _files(delivery)
+    """Lengths over all, along top and bottom against the schedule, sizes of the section against the design, mm."""
+    table, files, sections = delivery.table("members"), _files(delivery), _sections(delivery)
     columns = ("cut_length_mm", "cut_length_mm", "top_length_mm", "bottom_length_mm")
     claimed = zip(texts(table, "mark"), *(texts(table, column) for column in columns), strict=True)
-    section = [float(member[key]) for key in ("depth", "thickness", "thickness", "thickness")]
-    off = {mark: _size_off(files[mark], [*map(number, row)], section) for mark, *row in claimed if mark in files}
+    off = {mark: _size_off(files[mark], [*map(number, row)], sections[mark]) for mark, *row in claimed if mark in files}
     return worst_of(list(off.values()), list(off))
 
 
-def _size_off(part: NcFile, lengths: list[float], section: list[float]) -> float:
-    """Compare lengths, and of plates the section."""
+def _sections(delivery: Delivery) -> dict[str, dict[str, Any]]:
+    """Map the marks of the members on what the design says of their sections."""
+    known, named = delivery.design.raw["member"]["sections"], pairs(delivery.table("members"), "mark", "section")
+    return {mark: known[name] for mark, name in named.items()}
+
+
+def _size_off(part: NcFile, lengths: list[float], section: dict[str, Any]) -> float:
+    """Compare lengths and the sizes of the section."""
     match = _LENGTHS.fullmatch(part.notes[0])
     told = [part.length, part.saw_length, *(number(word) for word in (match.groups() if match else ("", "")))]
-    plate = [part.sizes[key] for key in ("height", "width", "flange", "web")]
-    off = np.abs(np.subtract(told, lengths)).max()
-    return float(max(off, np.abs(np.subtract(plate, section)).max()) if part.code == "B" else off)
+    code, wanted = _header_sizes(section)
+    if part.code != code:
+        return np.inf
+    off = [part.sizes[key] - value for key, value in wanted.items()]
+    return float(max(np.abs(np.subtract(told, lengths)).max(), np.abs(off).max()))
+
+
+def _header_sizes(section: dict[str, Any]) -> tuple[str, dict[str, float]]:
+    """Code and sizes that a header gives of a section: a plate's thickness three times, a tube's wall twice."""
+    if section["kind"] == "plate":
+        return "B", {"height": section["depth"], **dict.fromkeys(("width", "flange", "web"), section["thickness"])}
+    wall = dict.fromkeys(("flange", "web"), section["wall"])
+    return "M", {"height": section["depth"], "width": section["width"], "radius": section["outer_radius"], **wall}
 
 
 def masses(delivery: Delivery) -> Measured:
     """Net mass of the contours less their holes against the schedule, in half digits of both roundings."""
-    table, member, files = delivery.table("members"), delivery.design.raw["member"], _files(delivery)
-    per_area = float(member["thickness"]) * float(member["density_kg_m3"]) * 1e-9
+    table, files, sections = delivery.table("members"), _files(delivery), _sections(delivery)
+    density = float(delivery.design.raw["member"]["density_kg_m3"]) * 1e-9
     rows = zip(texts(table, "mark"), map(number, texts(table, "mass_kg")), strict=True)
     plates = {mark: mass for mark, mass in rows if mark in files and files[mark].code == "B"}
-    off = [_mass_off(files[mark], mass, per_area) for mark, mass in plates.items()]
+    off = [_mass_off(files[mark], mass, sections[mark]["thickness"] * density) for mark, mass in plates.items()]
     return worst_of(off, list(plates), none="no member is cut from a plate")
 
 
@@ -157,13 +175,25 @@ def _net(part: NcFile) -> tuple[float, float]:
 
 
 def metre_masses(delivery: Delivery) -> Measured:
-    """Line 15 of the headers against section and density, kg per m or per m²."""
-    member, files = delivery.design.raw["member"], _files(delivery)
-    sheet = float(member["thickness"]) / 1e3 * float(member["density_kg_m3"])
-    expected = sheet if delivery.design.raw["nc1"]["mass"] == "kg/m2" else sheet * float(member["depth"]) / 1e3
-    plates = {mark: part for mark, part in files.items() if part.code == "B"}
-    off = [abs(part.sizes["mass"] - expected) for part in plates.values()]
-    return worst_of(off, list(plates), none="no member is cut from a plate")
+    """Line 15 of the headers against section and density, kg per m, or per m² of plates."""
+    files, sections = _files(delivery), _sections(delivery)
+    density, unit = float(delivery.design.raw["member"]["density_kg_m3"]), delivery.design.raw["nc1"]["mass"]
+    known = {mark: part for mark, part in files.items() if mark in sections}
+    off = [abs(part.sizes["mass"] - _mass(sections[mark], unit) * density) for mark, part in known.items()]
+    return worst_of(off, list(known))
+
+
+def _mass(section: dict[str, Any], unit: str) -> float:
+    """Volume of a metre of a section, or of a square metre of plate, m³."""
+    if section["kind"] == "plate":
+        return section["thickness"] / 1e3 * (1.0 if unit == "kg/m2" else section["depth"] / 1e3)
+    twice = 2 * section["wall"]
+    outside = _rounded(section["depth"], section["width"], section["outer_radius"])
+    return (outside - _rounded(section["depth"] - twice, section["width"] - twice, section["inner_radius"])) / 1e6
+
+
+def _rounded(depth: float, width: float, radius: float) -> float:
+    return depth * width - (4 - np.pi) * radius**2
 
 
 RULES = (

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from isomould.verify.checks.solids import leaks, volume
+from isomould.verify.checks.solids import leaks, member_volume, volume
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.dxf import Drawing, Outline, net_area, one_outline, outlines_on
 from isomould.verify.read.solid import read_3mf
-from isomould.verify.read.tables import numbers, texts
+from isomould.verify.read.tables import numbers, pairs, texts
 from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, faults, worst_of
 
 ROUNDING = 0.003
@@ -42,8 +42,8 @@ def _shaft_off(shaft: Floats, along: Floats) -> float:
 def node_plans(delivery: Delivery) -> Measured:
     """Distance of the slots' floors from the arms' directions, and volume of the solid against plan × height."""
     plans, table = delivery.node_drawings, delivery.table("nodes")
-    if delivery.design.raw["node"]["detail"] != "slotted":
-        raise NotApplicable("nodes are no slotted drums: a plan does not describe them")
+    if delivery.design.raw["node"]["detail"] != "slotted" or delivery.design.raw["node"].get("cap"):
+        raise NotApplicable("nodes are no plain slotted drums: a plan does not describe facets or grooves")
     height = dict(zip(texts(table, "mark"), numbers(table, "drum_height_mm").tolist(), strict=True))
     off, names = list[float](), list[str]()
     for row, mark in enumerate(texts(table, "mark")):
@@ -87,9 +87,7 @@ def _arc_lengths(outline: Outline) -> Floats:
 
 def part_solids(delivery: Delivery) -> Measured:
     """Solids of members and panels: watertight, and as large as their outlines times their thickness."""
-    design = delivery.design.raw
-    thickness = {"members": float(design["member"]["thickness"]), "panels": float(design["panel"]["thickness_mm"])}
-    files = {kind: delivery.files(kind, "3mf") for kind in thickness}
+    files = {kind: delivery.files(kind, "3mf") for kind in ("members", "panels")}
     if not any(files.values()):
         raise NotApplicable("the project asks for no solids of members and panels")
     problems: list[str] = []
@@ -98,12 +96,23 @@ def part_solids(delivery: Delivery) -> Measured:
         for path in paths:
             solid, drawing = read_3mf(path), drawings[path.stem]
             problems += [f"{path.stem}: {fault}" for fault in leaks(solid)]
-            wanted, slack = net_area(drawing) * thickness[kind], _hole_slack(drawing) * thickness[kind]
+            wanted, slack = _wanted(delivery, kind, drawing)
             if abs(volume(solid) - wanted) > 1e-9 * wanted + slack:
                 problems.append(f"{path.stem}: {volume(solid):.3f} mm³, its outline gives {wanted:.3f}")
         if paths and {path.stem for path in paths} != drawings.keys():
             problems.append(f"{kind}: not one solid per class")
     return faults(sum(map(len, files.values())), problems)
+
+
+def _wanted(delivery: Delivery, kind: str, drawing: Drawing) -> tuple[float, float]:
+    """Volume of a part from its outline, and what chords of round holes and corners leave, mm³."""
+    design = delivery.design.raw
+    if kind == "panels":
+        thickness = float(design["panel"]["thickness_mm"])
+        return net_area(drawing) * thickness, _hole_slack(drawing) * thickness
+    section = design["member"]["sections"][pairs(delivery.table("members"), "mark", "section")[drawing.name]]
+    wanted = member_volume(delivery, drawing.name)
+    return wanted, _hole_slack(drawing) * float(section["thickness"]) if section["kind"] == "plate" else 2e-3 * wanted
 
 
 def _hole_slack(drawing: Drawing) -> float:

@@ -5,9 +5,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.read.dxf import net_area
+from isomould.verify.read.dxf import Drawing, area, net_area, one_outline
 from isomould.verify.read.solid import Solid, read_stl
 from isomould.verify.read.tables import half_unit, numbers, pairs, texts
+from isomould.verify.read.text import Json
 from isomould.verify.rules import Floats, Ints, Measured, NotApplicable, Rule, Unreadable, faults, worst_of
 
 RELATIVE = 1e-9
@@ -165,7 +166,8 @@ def masses(delivery: Delivery) -> Measured:
     nodes, members = _column(delivery, "nodes", "mass_kg"), _column(delivery, "members", "mass_kg")
     steel = {mark: volume(solid) + base_volume(delivery, mark) for mark, solid in delivery.solids.items()}
     own = {mark: found * _node_density(delivery) for mark, found in steel.items()}
-    own |= {mark: _plate_mass(delivery, mark) for mark in members}
+    density = float(delivery.design.raw["member"]["density_kg_m3"]) * 1e-9
+    own |= {mark: member_volume(delivery, mark) * density for mark in members}
     claimed = nodes | members
     off = [abs(mass - claimed[mark]) for mark, mass in own.items()]
     return worst_of(off, list(own), limit=_rounding("mass_kg"))
@@ -193,14 +195,47 @@ def _node_density(delivery: Delivery) -> float:
     return float(design["node"].get("density_kg_m3", design["member"]["density_kg_m3"])) * 1e-9
 
 
-def _plate_mass(delivery: Delivery, mark: str) -> float:
+def member_volume(delivery: Delivery, mark: str) -> float:
+    """Give the volume of a member from its part file, its section and its end plates, mm³."""
     member = delivery.design.raw["member"]
-    if member.get("kind", "plate") != "plate":
-        raise NotApplicable(f"members are {member['kind']}: their outline does not give their volume")
+    name = pairs(delivery.table("members"), "mark", "section")[mark]
+    section = member["sections"][name]
     if mark not in delivery.members:
         message = f"members/{mark}.dxf is missing"
         raise Unreadable(message)
-    return net_area(delivery.members[mark]) * float(member["thickness"]) * float(member["density_kg_m3"]) * 1e-9
+    measure = _plate_volume if section["kind"] == "plate" else _tube_volume
+    return measure(delivery.members[mark], section) + _end_plates(delivery, mark, name)
+
+
+def _end_plates(delivery: Delivery, mark: str, name: str) -> float:
+    """Give the volume of the plates in both ends of a hollow section that is no sill."""
+    end = delivery.design.raw["node"].get("ends", {}).get(name)
+    if end is None or pairs(delivery.table("members"), "mark", "family")[mark] == "sill":
+        return 0.0
+    size = delivery.design.raw["member"]["sections"][name]
+    depth, width = (float(size[key]) - 2 * float(size["wall"]) for key in ("depth", "width"))
+    holes = len(end["bolts_mm"]) * np.pi / 4 * float(end["hole_mm"]) ** 2
+    area = depth * width - (4 - np.pi) * float(size["inner_radius"]) ** 2 - holes
+    return 2 * float(end["thickness_mm"]) * area
+
+
+def _plate_volume(drawing: Drawing, section: Json) -> float:
+    return net_area(drawing) * float(section["thickness"])
+
+
+def _tube_volume(drawing: Drawing, section: Json) -> float:
+    """Give the volume of a hollow section cut square: walls and corners, less what is cut into its front."""
+    face = one_outline(drawing)
+    openings = abs(area(face)) - net_area(drawing)
+    return _tube_area(section) * float(np.ptp(face.points[:, 0])) - openings * float(section["wall"])
+
+
+def _tube_area(section: Json) -> float:
+    """Give four straight walls and four quarters of a ring, mm²."""
+    keys = ("depth", "width", "wall", "outer_radius", "inner_radius")
+    depth, width, wall, outer, inner = (float(section[key]) for key in keys)
+    full = depth * width - (depth - 2 * wall) * (width - 2 * wall)
+    return full - (4 - np.pi) * (outer**2 - inner**2)
 
 
 RULES = (
