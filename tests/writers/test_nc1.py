@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from isomould.documents.nc_parts import Blank, nc_part, plate_profile, tube_profile
+from isomould.parts.catalogue import RhsSection
 from isomould.parts.features import Hole
 from isomould.verify.read.nc1 import NcHole, read_nc1
 from isomould.verify.rules import Unreadable
@@ -80,7 +81,7 @@ def test_a_hollow_section_has_holes_on_its_faces_and_no_contour(tmp_path):
     box = np.array([[25.0, -60.0], [1025.0, -60.0], [1025.0, 60.0], [25.0, 60.0]])
     faces = ("front", "back", "top", "bottom")
     blank = Blank("M01", 2, "S355J2H", box, holes=tuple(Hole(75, 10, 18, face=face) for face in faces))
-    profile = tube_profile("RHS120*80*5", (120, 80), 5, 10, 7850)
+    profile = tube_profile(RhsSection(depth=120, width=80, wall=5), 7850)
     write_nc1(tmp_path / "M01.nc1", nc_part(blank, profile), ORDER)
     read = read_nc1(tmp_path / "M01.nc1")
     assert (read.code, read.length, read.outer) == ("M", 1000, ())
@@ -94,7 +95,7 @@ def test_a_hollow_section_has_holes_on_its_faces_and_no_contour(tmp_path):
 )
 def test_tubes_weigh_what_the_standard_prints(size, wall, radius, mass, paint):
     """EN 10219-2, tables B.2 and B.3: kg/m to three digits, m²/m."""
-    profile = tube_profile("", size, wall, radius, 7850)
+    profile = tube_profile(RhsSection(depth=size[0], width=size[1], wall=wall, outer_radius=radius), 7850)
     assert profile.mass == pytest.approx(mass, rel=6e-3)
     assert profile.paint == pytest.approx(paint, abs=6e-4)
 

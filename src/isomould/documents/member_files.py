@@ -44,8 +44,7 @@ def member_nc_parts(members: MemberParts, asked: MemberSettings, unit: MassUnit)
 def _profile(section: AnySection, density: float, unit: MassUnit) -> NcProfile:
     if isinstance(section, PlateSection):
         return plate_profile(section.name, section.depth, section.thickness, density, unit)
-    outer, _ = section.radii
-    return tube_profile(section.name, (section.depth, section.width), section.wall, outer, density)
+    return tube_profile(section, density)
 
 
 def _blank(mark: str, quantity: int, shape: MemberShape, grade: str) -> Blank:

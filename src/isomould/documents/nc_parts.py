@@ -9,6 +9,7 @@ from isomould.arrays import Floats
 from isomould.documents.drawing import Polyline
 from isomould.documents.engraving import Stamp, free_area, place_at_start, place_in_middle
 from isomould.documents.holes import front_holes
+from isomould.parts.catalogue import RhsSection
 from isomould.parts.features import Face, Hole
 
 Code = Literal["B", "M"]
@@ -97,19 +98,14 @@ def plate_profile(name: str, width: float, thickness: float, density: float, uni
     return NcProfile("B", name, width, *[thickness] * 3, radius=0.0, mass=mass, paint=paint)
 
 
-def tube_profile(name: str, size: tuple[float, float], wall: float, radius: float, density: float) -> NcProfile:
-    """Give the header of a hollow section, `size` its height and width, `radius` that of its outer corners, all mm.
+def tube_profile(section: RhsSection, density: float) -> NcProfile:
+    """Give the header of a hollow section.
 
-    Area and girth of a rectangle with round corners inside and out (EN 10219-2, annex B).
-
-    >>> round(tube_profile("RHS120*80*5", (120, 80), 5, 10, 7850).mass, 1)
+    >>> round(tube_profile(RhsSection(depth=120, width=80, wall=5), 7850).mass, 1)
     14.4
     """
-    height, width = size
-    inner = max(radius - wall, 0.0)
-    corners = (4 - np.pi) * (radius**2 - inner**2)
-    area, girth = 2 * wall * (height + width - 2 * wall) - corners, 2 * (height + width) - (8 - 2 * np.pi) * radius
-    return NcProfile("M", name, height, width, wall, wall, radius, area * density / 1e6, girth / 1e3)
+    sizes = (section.depth, section.width, section.wall, section.wall, section.radii[0])
+    return NcProfile("M", section.name, *sizes, mass=section.area * density / 1e6, paint=section.girth / 1e3)
 
 
 def nc_part(blank: Blank, profile: NcProfile) -> NcPart:

@@ -142,7 +142,7 @@ def _size_off(part: NcFile, lengths: list[float], section: dict[str, Any]) -> fl
     return float(max(np.abs(np.subtract(told, lengths)).max(), np.abs(off).max()))
 
 
-def _header_sizes(section: dict[str, Any]) -> tuple[str, dict[str, float]]:
+def _header_sizes(section: dict[str, Any]) -> tuple[str, dict[str, Any]]:
     """Code and sizes that a header gives of a section: a plate's thickness three times, a tube's wall twice."""
     if section["kind"] == "plate":
         return "B", {"height": section["depth"], **dict.fromkeys(("width", "flange", "web"), section["thickness"])}
