@@ -132,14 +132,14 @@ FAULTS = [
     ("V34", {"parts": [3]}),
     ("V34b", {"yield_percent": [47.2]}),
     ("V35", {"placed": placements() * 3}),
-    ("V36", {"placed": shifted(1, [-160.0, 0])}),
-    ("V36", {"placed": shifted(2, [0, -1.1])}),
-    ("V36", {"tree": {"placement": 0}}),
-    ("V36", {"tree": TREE | {"lines": TREE["lines"][::-1]}}),
-    ("V36", {"cutting": {"cut_tree": None}}),
-    ("V36", {"tree": TREE | {"pieces": TREE["pieces"][:2]}}),
-    ("V36b", {"cutting": CUTTING | {"cuts": 5}}),
-    ("V36b", {"cutting": CUTTING | {"cut_length_mm": CUTTING["cut_length_mm"] + 0.001}}),
+    ("V35b", {"placed": shifted(1, [-160.0, 0])}),
+    ("V35b", {"placed": shifted(2, [0, -1.1])}),
+    ("V35b", {"tree": {"placement": 0}}),
+    ("V35b", {"tree": TREE | {"lines": TREE["lines"][::-1]}}),
+    ("V35b", {"cutting": {"cut_tree": None}}),
+    ("V35b", {"tree": TREE | {"pieces": TREE["pieces"][:2]}}),
+    ("V35c", {"cutting": CUTTING | {"cuts": 5}}),
+    ("V35c", {"cutting": CUTTING | {"cut_length_mm": CUTTING["cut_length_mm"] + 0.001}}),
 ]
 
 

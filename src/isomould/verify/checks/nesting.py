@@ -1,4 +1,4 @@
-"""V31-V36: every part lies once on a sheet, in its own shape, with its gap, the areas add up, the cuts free it."""
+"""V31-V35: every part lies once on a sheet, in its own shape, with its gap, the areas add up, the cuts free it."""
 
 from collections import Counter
 from math import ceil, pi
@@ -229,6 +229,6 @@ RULES = (
     Rule("V34", "part areas of the sheets = schedule", 1e-9, "relative", areas),
     Rule("V34b", "yields of sheets and layout", half_unit("yield_percent"), "%", yields),
     Rule("V35", "sheets hold no more than their area", 1.0, "fill", bound),
-    Rule("V36", "cuts from edge to edge free every part whole", LENGTH, "mm out", freed),
-    Rule("V36b", "cuts and their length", LENGTH, "mm", counted),
+    Rule("V35b", "cuts from edge to edge free every part whole", LENGTH, "mm out", freed),
+    Rule("V35c", "cuts and their length", LENGTH, "mm", counted),
 )
