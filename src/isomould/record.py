@@ -47,6 +47,8 @@ def describe_design(design: Design, stock: StockSettings) -> dict[str, Any]:
         },
         "layers": dict(project.deliver.layers),
         "drawings": project.deliver.drawings,
+        "solids": list(project.deliver.solids),
+        "parquet": project.deliver.parquet,
         "dxf": list(project.deliver.dxf),
         "nc1": _nc1(design),
         "labels": project.deliver.labels,

@@ -87,8 +87,8 @@ def _arc_lengths(outline: Outline) -> Floats:
 
 def part_solids(delivery: Delivery) -> Measured:
     """Solids of members and panels: watertight, and as large as their outlines times their thickness."""
-    files = {kind: delivery.files(kind, "3mf") for kind in ("members", "panels")}
-    if not any(files.values()):
+    files = {kind: delivery.files(kind, "3mf") for kind in delivery.design.raw["solids"]}
+    if not files:
         raise NotApplicable("the project asks for no solids of members and panels")
     problems: list[str] = []
     for kind, paths in files.items():
@@ -99,7 +99,7 @@ def part_solids(delivery: Delivery) -> Measured:
             wanted, slack = _wanted(delivery, kind, drawing)
             if abs(volume(solid) - wanted) > 1e-9 * wanted + slack:
                 problems.append(f"{path.stem}: {volume(solid):.3f} mm³, its outline gives {wanted:.3f}")
-        if paths and {path.stem for path in paths} != drawings.keys():
+        if {path.stem for path in paths} != drawings.keys():
             problems.append(f"{kind}: not one solid per class")
     return faults(sum(map(len, files.values())), problems)
 

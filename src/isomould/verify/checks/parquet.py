@@ -11,9 +11,9 @@ from isomould.verify.rules import Measured, NotApplicable, Rule, faults
 
 def twins(delivery: Delivery) -> Measured:
     """Compare every cell of every table with its Parquet twin."""
-    files = {path.stem: path for path in delivery.files("tables", "parquet")}
-    if not files:
+    if not delivery.design.raw["parquet"]:
         raise NotApplicable("the project asks for no Parquet files")
+    files = {path.stem: path for path in delivery.files("tables", "parquet")}
     problems = [f"tables/{name}.parquet has no twin" for name in sorted(files.keys() ^ delivery.tables.keys())]
     for name in sorted(files.keys() & delivery.tables.keys()):
         problems += _faults(delivery.tables[name], read_parquet(files[name]))
