@@ -11,6 +11,7 @@ from typing import Any
 
 import highspy
 import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
@@ -23,6 +24,9 @@ TABLE = 16_000_000
 
 PROOF = 20 * TABLE
 """The same for a bound, of which there are few."""
+
+CLOSE = 1_000
+"""Steps per piece for a bound: rounding down costs half a thousandth of a bar in all."""
 
 MISSING = 100.0
 """What a piece costs that no pattern cuts, in costs of the dearest bar."""
@@ -197,24 +201,27 @@ def _patterns(room: int, asked: Ints, table: tuple[Ints, Bools], sizes: Ints) ->
     return takes
 
 
-def bound_cost(programme: Programme, need: Need, worth: Floats) -> float:
-    """Bound the cost of any bars that serve a need, by what pieces are worth (Farley 1990).
+def bound_cost(rack: BarRack, costs: Floats, need: Need, worths: Sequence[Floats]) -> float:
+    """Bound the cost of any bars that serve a need, by what pieces are worth.
 
-    Worths are scaled until no bar without limit holds more than it costs; what the others hold beyond that is
-    taken off as often as they are there.
+    Whatever a piece of every size is worth, the bars must be able to hold what all are worth together. The least
+    whole numbers of bars that can, for each of the worths and for the lengths, are a small integer programme; of a
+    single kind of bar they are Farley's bound (1990). It is 0 if there are too few bars.
     """
-    rack, costs = programme.rack, programme.costs
-    holds = _most_worth(rack, need, worth)
-    free = (need.limits >= need.counts.sum()) & (holds > 0)
-    scale = float(np.min(costs[free] / holds[free], initial=1.0))
-    over = np.minimum(costs - scale * holds, 0.0)[~free] @ need.limits[~free]
-    return programme.top * float(scale * (worth @ need.counts) + over)
+    rows = [rack.rooms.astype(np.float64), *(_most_worth(rack, need, worth) for worth in worths)]
+    asked = [float(worth @ need.counts) for worth in (rack.sizes, *worths)]
+    scale = np.array([max(float(row.max()), 1e-12) for row in rows])
+    enough = LinearConstraint(np.array(rows) / scale[:, None], np.array(asked) / scale - SLIGHT, np.inf)
+    most = np.minimum(need.limits, need.counts.sum()).astype(np.float64)
+    found = milp(costs, integrality=np.ones(len(costs), dtype=np.int64), bounds=Bounds(0, most), constraints=enough)
+    return 0.0 if found.mip_dual_bound is None else float(found.mip_dual_bound)
 
 
 def _most_worth(rack: BarRack, need: Need, worth: Floats) -> Floats:
     """Give the most that every kind of bar can hold; sizes are rounded down, so it may be a little more."""
     copies = _copies(rack, need.counts, worth)
-    step = _step(rack, PROOF // max(int(copies.sum()), 1))
+    steps = max(FINEST, CLOSE * int(need.counts.sum()))
+    step = _step(rack, min(steps, PROOF // max(int(copies.sum()), 1)))
     best = np.zeros(int(rack.rooms.max()) // step + 1)
     took = np.zeros(len(best), dtype=np.bool_)
     for item in np.repeat(np.arange(len(copies)), copies).tolist():

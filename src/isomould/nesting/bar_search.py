@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from isomould.arrays import Ints
+from isomould.arrays import Floats, Ints
 from isomould.nesting.bar_columns import Programme, Shares, bound_cost, generate, make_programme
 from isomould.nesting.bar_greedy import first_fit, largest_first
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, area_bound, cost_of, less, merit, sum_of
@@ -85,23 +85,23 @@ def _length_bound(rack: BarRack, counts: Ints) -> BarBound:
 
 
 def _linear_bound(programme: Programme, need: Need, known: BarBound) -> BarBound:
-    """Better a bound by the programme's: of the cost, and of the number of bars if that is something else."""
-    cost = _least(programme, need)
-    bars = cost
-    if len(programme.costs) > 1:
-        bars = _least(make_programme(programme.rack, np.ones(len(programme.costs)), programme.patterns), need)
+    """Better a bound by the programme's worths, and by those of another that counts bars if they differ in cost."""
+    rack, ones = programme.rack, np.ones(len(programme.costs))
+    worths = [_worth(programme, need)]
+    if len(ones) > 1:
+        worths.append(_worth(make_programme(rack, ones, programme.patterns), need))
+    cost, bars = (_whole(bound_cost(rack, costs, need, worths)) for costs in (rack.costs, ones))
     kind: BoundKind = "lp" if bars > known.bars else "area"
     return BarBound(max(bars, known.bars), max(float(cost), known.cost), kind)
 
 
-def _least(programme: Programme, need: Need) -> int:
-    """Give the least whole cost that the worths of the programme prove, priced more closely if that may help."""
+def _worth(programme: Programme, need: Need) -> Floats:
+    """Give what a piece of every size is worth, priced more closely if that may prove more."""
     shares = generate(programme, need, ROUNDS)
-    least = _whole(bound_cost(programme, need, shares.worth))
-    if least < _whole(programme.top * shares.cost):
+    costs = programme.top * programme.costs
+    if _whole(bound_cost(programme.rack, costs, need, [shares.worth])) < _whole(programme.top * shares.cost):
         shares = generate(programme, need, ROUNDS, up=False)
-        least = max(least, _whole(bound_cost(programme, need, shares.worth)))
-    return least
+    return shares.worth
 
 
 def _whole(cost: float) -> int:
