@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -24,20 +25,65 @@ MEMBERS = (
 LAYOUT = nest_bars(MEMBERS, STOCK)
 
 
-@settings(max_examples=100, deadline=None)
+KINDS = st.tuples(st.integers(4100, 9000), st.sampled_from([0, 7, 11.5, 12]), st.sampled_from([None, 0, 1, 3]))
+
+
+@settings(max_examples=250, deadline=None)
 @given(
-    st.lists(st.tuples(st.sampled_from("PQ"), st.integers(100, 4000), st.integers(1, 9)), max_size=12),
+    st.lists(st.tuples(st.sampled_from("PQ"), st.integers(100, 4000), st.integers(1, 9)), max_size=6),
+    st.lists(KINDS, min_size=1, max_size=3, unique_by=lambda kind: kind[0]),
     st.sampled_from([0.0, 3.0, 2.5]),
     st.sampled_from([0.0, 15.0]),
 )
-def test_every_layout_is_proved(rows: list[tuple[str, int, int]], kerf: float, trim: float) -> None:
+def test_every_layout_is_proved(
+    rows: list[tuple[str, int, int]], kinds: list[tuple[int, float, int | None]], kerf: float, trim: float
+) -> None:
     members = [Member(k, section, length + k / 8, count) for k, (section, length, count) in enumerate(rows)]
-    bars = [BarStock(section=section, length=length) for section in "PQ" for length in (5000, 6500)]
+    bars = [BarStock(section=s, length=x, price=p, quantity=q) for s in "PQ" for x, p, q in kinds]
     stock = StockSettings(bars=tuple(bars), bar_kerf=kerf, bar_trim=trim)
     layout = nest_bars(members, stock)
     assert check_bars(members, stock, layout) == ()
-    assert not layout.unplaced
-    assert layout.bound <= len(layout.bars)
+    assert not layout.unplaced or all(quantity is not None for _, _, quantity in kinds)
+
+
+def least_cost(sizes: list[int], kinds: list[tuple[int, int, int | None]]) -> tuple[int, int] | None:
+    """Try every way to cut the pieces: the least cost, and bars; None if there are too few bars."""
+    if not sizes:
+        return 0, 0
+    found: list[tuple[int, int]] = []
+    others = range(1, len(sizes))
+    for k, (room, cost, quantity) in enumerate(kinds):
+        left = [*kinds[:k], (room, cost, None if quantity is None else quantity - 1), *kinds[k + 1 :]]
+        groups = (group for many in range(len(sizes)) for group in combinations(others, many))
+        for group in groups if quantity != 0 else ():
+            if sizes[0] + sum(sizes[i] for i in group) <= room:
+                rest = least_cost([sizes[i] for i in others if i not in group], left)
+                found += [(rest[0] + cost, rest[1] + 1)] if rest else []
+    return min(found, default=None)
+
+
+@settings(max_examples=250, deadline=None)
+@given(
+    st.lists(st.integers(20, 90), min_size=1, max_size=6),
+    st.lists(
+        st.tuples(st.integers(90, 160), st.integers(1, 9), st.sampled_from([None, None, 1, 2])),
+        min_size=1,
+        max_size=2,
+        unique_by=lambda kind: kind[0],
+    ),
+)
+def test_few_pieces_cost_the_least_and_bounds_hold(
+    lengths: list[int], kinds: list[tuple[int, int, int | None]]
+) -> None:
+    bars = tuple(BarStock(section="P", length=room, price=cost, quantity=many) for room, cost, many in kinds)
+    members = [Member(k, "P", float(length)) for k, length in enumerate(lengths)]
+    layout = nest_bars(members, StockSettings(bars=bars, bar_kerf=0))
+    least = least_cost(sorted(lengths, reverse=True), kinds)
+    if least is not None and not layout.unplaced:
+        fewest = least_cost(sorted(lengths, reverse=True), [(room, 1, many) for room, _, many in kinds])
+        assert layout.price_bound <= least[0] <= layout.price
+        assert fewest is not None
+        assert layout.bound <= fewest[0]
 
 
 def test_pieces_fill_a_bar_to_the_last_kerf() -> None:
@@ -65,6 +111,54 @@ def test_cheaper_bars_are_preferred() -> None:
     bars = (BarStock(section="P", length=6000, price=100), BarStock(section="P", length=4000, price=20))
     layout = nest_bars([Member("M", "P", 1900.0, 8)], StockSettings(bars=bars))
     assert {bar.length for bar in layout.bars} == {4000}
+
+
+def test_remnants_are_cut_before_bars_are_bought() -> None:
+    bars = (BarStock(section="P", length=6000, price=90), BarStock(section="P", length=2500, quantity=3))
+    layout = nest_bars([Member("M", "P", 2400.0, 5)], StockSettings(bars=bars))
+    assert sorted(bar.length for bar in layout.bars) == [2500, 2500, 2500, 6000]
+    assert layout.price == layout.price_bound == 90
+
+
+def test_of_equal_prices_the_fewer_bars_are_taken() -> None:
+    bars = (BarStock(section="P", length=6000, price=90), BarStock(section="P", length=500, quantity=9))
+    layout = nest_bars([Member("M", "P", 1900.0), Member("N", "P", 400.0, 4)], StockSettings(bars=bars))
+    assert [bar.length for bar in layout.bars] == [6000]
+
+
+def test_last_bars_in_stock_suffice_if_they_are_shared_out_well() -> None:
+    """60 + 40 and 40 + 30 fill them; a bar more of any length there is none."""
+    bars = (BarStock(section="P", length=100, quantity=1), BarStock(section="P", length=70, quantity=1))
+    members = [Member(k, "P", float(length)) for k, length in enumerate((60, 40, 40, 30))]
+    layout = nest_bars(members, StockSettings(bars=bars, bar_kerf=0))
+    assert (layout.status, len(layout.bars)) == ("complete", 2)
+
+
+SIX = [
+    (30, 600, 6000),
+    (30, 600, 12000),
+    (700, 600, 6000),
+    (700, 600, 12000),
+    (30, 1200, 6000),
+    pytest.param(700, 1200, 6000, marks=pytest.mark.long),
+]
+
+
+def thirteen_hundred(lengths: int, shortest: int) -> list[Member]:
+    """Members of so many lengths, 600 to 2400 or 1200 to 3600, drawn by lot."""
+    chance = np.random.default_rng(1)
+    sizes = np.round(chance.uniform(shortest, 2400 if shortest == 600 else 3600, lengths), 3)
+    counts = 1 + chance.multinomial(1300 - lengths, np.full(lengths, 1 / lengths))
+    return [Member(k, "P", float(x), int(n)) for k, (x, n) in enumerate(zip(sizes, counts, strict=True))]
+
+
+@pytest.mark.parametrize(("lengths", "shortest", "bar"), SIX)
+def test_thirteen_hundred_members_meet_their_bound(lengths: int, shortest: int, bar: int) -> None:
+    stock = StockSettings(bars=(BarStock(section="P", length=bar),))
+    members = thirteen_hundred(lengths, shortest)
+    layout = nest_bars(members, stock)
+    assert check_bars(members, stock, layout) == ()
+    assert layout.gap_to_bound == 0
 
 
 def test_member_longer_than_every_bar_is_refused() -> None:
@@ -108,6 +202,8 @@ FAULTS: dict[str, tuple[Callable[[BarLayout], BarLayout], str]] = {
     ),
     "length": (change(0, 0, length=10.0), "N-BAR-09"),
     "bound": (lambda layout: replace(layout, bounds={"P": 99}), "N-BAR-10"),
+    "price": (lambda layout: replace(layout, price=1.0, price_bound=0.0), "N-BAR-11"),
+    "price bound": (lambda layout: replace(layout, price_bound=1.0), "N-BAR-12"),
     "stock": (
         lambda layout: replace(layout, bars=tuple(replace(bar, length=6001.0) for bar in layout.bars)),
         "N-BAR-04",

@@ -8,10 +8,13 @@ from isomould.nesting.checker import TOLERANCE, Finding
 from isomould.nesting.layout import Bar, BarLayout, Member
 from isomould.nesting.settings import StockSettings
 
+PRICE_TOLERANCE = 1e-6
+"""Of sums of prices."""
+
 
 def check_bars(members: Sequence[Member], stock: StockSettings, layout: BarLayout) -> tuple[Finding, ...]:
     """Prove that a layout cuts the members as asked from the bars in stock; empty if it does."""
-    findings = [*_check_quantities(members, layout), *_check_stock(stock, layout), *_check_bounds(layout)]
+    findings = [*_check_quantities(members, layout), *_check_stock(stock, layout), *_check_bounds(stock, layout)]
     for bar in layout.bars:
         findings += [*_check_bar(bar, stock), *_check_lengths(bar, members)]
     return tuple(findings)
@@ -64,8 +67,18 @@ def _check_lengths(bar: Bar, members: Sequence[Member]) -> Iterator[Finding]:
             yield Finding("N-BAR-09", f"bar {bar.id}, {cut.id}", found, f"{asked.get(cut.id)}")
 
 
-def _check_bounds(layout: BarLayout) -> Iterator[Finding]:
+def _check_bounds(stock: StockSettings, layout: BarLayout) -> Iterator[Finding]:
     used = Counter(bar.section for bar in layout.bars)
     for section, bound in layout.bounds.items():
         if bound > used[section]:
             yield Finding("N-BAR-10", f"bound of {section}", f"{bound}", f"at most {used[section]} bars used")
+    price = sum(_price(stock, bar) for bar in layout.bars)
+    if not abs(layout.price - price) <= PRICE_TOLERANCE:
+        yield Finding("N-BAR-11", "price of all bars", f"{layout.price}", f"{price}")
+    if not layout.price_bound <= layout.price + PRICE_TOLERANCE:
+        yield Finding("N-BAR-12", "least price of all bars", f"{layout.price_bound}", f"at most {layout.price}")
+
+
+def _price(stock: StockSettings, bar: Bar) -> float:
+    """Give the price of a bar; 0 if it is not in stock, which is another finding."""
+    return next((kind.price for kind in stock.bars if (kind.section, kind.length) == (bar.section, bar.length)), 0.0)

@@ -162,12 +162,23 @@ class Bar:
 
 @dataclass(frozen=True)
 class BarLayout:
-    """Bars of every section; `bounds` is the lower bound for the number of bars of each section."""
+    """Bars of every section.
+
+    Attributes
+    ----------
+    bounds
+        No cutting of the placed pieces takes fewer bars of a section. Kind "area" compares lengths, long pieces
+        counted apart; "lp" shares the pieces out among patterns, in fractions of bars, for one section at least.
+    price, price_bound
+        Of all bars, and the least that any cutting of the placed pieces costs; 0 without prices.
+    """
 
     bars: tuple[Bar, ...]
     unplaced: tuple[Unplaced, ...]
     bounds: dict[str, int]
     bound_kind: BoundKind
+    price: float = 0.0
+    price_bound: float = 0.0
     status: Status = "complete"
     reproducible: bool = True
 
