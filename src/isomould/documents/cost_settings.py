@@ -4,8 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from isomould.documents.info import Text
-from isomould.settings import Settings
+from isomould.settings import Settings, Text
 from isomould.units import NonNegativeNumber
 
 Rate = NonNegativeNumber | None
