@@ -9,7 +9,7 @@ import numpy as np
 
 from isomould.arrays import Floats, Ints, round_um
 from isomould.documents.schedules import Placed
-from isomould.errors import Refused
+from isomould.errors import Note, Refused
 from isomould.nesting.assembly import yield_percent
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Layout, Member, Part, Unplaced
@@ -19,6 +19,9 @@ from isomould.nesting.settings import StockSettings
 from isomould.parts.kit import Kit
 from isomould.workers import Spread
 
+_NO_WASTE, _MUCH_WASTE = 1e-6, 60.0
+"""Per cent of the sheets that are bought."""
+
 
 @dataclass(frozen=True, eq=False)
 class Cutting:
@@ -27,6 +30,11 @@ class Cutting:
     stock: StockSettings
     sheets: Layout
     bars: BarLayout | None
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What should be known about the layouts."""
+        return weigh_waste(self.sheets.yield_percent) if self.stock.sheets else ()
 
     @property
     def placed(self) -> dict[str, Placed]:
@@ -43,6 +51,19 @@ class Cutting:
         """Bar and distance from its left end (mm) of every member location."""
         bars = self.bars.bars if self.bars else ()
         return {str(cut.location): (bar.id, cut.start) for bar in bars for cut in bar.cuts}
+
+
+def weigh_waste(yield_percent: float) -> tuple[Note, ...]:
+    """Note a waste of stock sheets that smells of a mistaken unit: none at all, or most of them (failure mode F8).
+
+    >>> [len(weigh_waste(percent)) for percent in (100.0, 85.0, 40.0, 39.0)]
+    [1, 0, 0, 1]
+    """
+    waste = 100.0 - yield_percent
+    if _NO_WASTE < waste <= _MUCH_WASTE:
+        return ()
+    text = f"{waste:.1f} % of the sheets is waste; are the units of sheets and surface right?"
+    return (Note("W-NEST-WASTE", "stock.sheets", text),)
 
 
 def nest_kit(kit: Kit, stock: StockSettings | None, task: Search, spread: Spread) -> Cutting:

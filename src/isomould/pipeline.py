@@ -2,7 +2,7 @@
 
 import importlib.metadata
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from isomould.curves.drawn import DxfSettings, RhinoSettings
@@ -140,6 +140,7 @@ def _compute(design: Design, kit: Table | None, logo: Logo | None, run: Run, spr
     refuse_clashes(design.kit, settings, bodies)
     report(f"nesting {len(design.kit.panels.locations)} panels and {len(design.kit.members.locations)} members")
     cutting = nest_kit(design.kit, project.stock, Search(run.effort), spread)
+    design = replace(design, notes=(*design.notes, *cutting.notes))
     return Delivery(design, solids, bodies, cutting, former, kit, logo)
 
 

@@ -1,9 +1,26 @@
-"""The base of every settings type: frozen, closed to unknown keys, finite numbers only."""
+"""The base of every settings type: frozen, closed to unknown keys, finite numbers only; user text of one line."""
 
-from pydantic import BaseModel, ConfigDict
+import unicodedata
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+_LONGEST = 120
 
 
 class Settings(BaseModel):
     """A table of the project file. Defined beside the stage that reads it; composed by `isomould.project`."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+def _one_line(text: str) -> str:
+    """Hold user text to one printable line in Unicode's composed form (failure mode A9)."""
+    if not text.isprintable():
+        message = "must be text without control characters, line breaks and direction marks"
+        raise ValueError(message)
+    return unicodedata.normalize("NFC", text)
+
+
+Text = Annotated[str, Field(max_length=_LONGEST), AfterValidator(_one_line)]
+"""One line of printable text."""

@@ -57,6 +57,13 @@ def test_the_same_words_give_the_same_bytes(write):
     assert write(240, 80) == write(240, 80)
 
 
+def test_the_cover_says_the_datum(tables):
+    info = ProjectInfo.model_validate({"name": "Vault", "datum": {"origin": [1000, 2000, "3 m"], "rotation_deg": 12.5}})
+    book = openpyxl.load_workbook(io.BytesIO(workbook_bytes(tables, Words(info))))
+    rows = {row[0].value: row[1].value for row in book["Cover"].iter_rows(max_col=2)}
+    assert rows["Datum"] == "origin at 1000, 2000, 3000 mm; x axis turned by 12.5°"
+
+
 def test_the_total_on_the_cover_is_the_named_one(tables):
     results = (Result("Total", "EUR", Given(12.5), "total_cost"),)
     book = openpyxl.load_workbook(io.BytesIO(workbook_bytes(tables, Words(ProjectInfo(name="Vault"), results=results))))

@@ -33,14 +33,14 @@ TABLES: dict[str, tuple[str, ...]] = {
         "summary": "item value unit",
         "nodes": f"""mark quantity kind valence handed {ARMS} drum_diameter_mm drum_height_mm mass_kg
             total_mass_kg volume_cm3 coated_area_m2 bar_diameter_mm blank_length_mm removed_volume_cm3 slots
-            facets holes
+            facets holes threads
             base_length_mm base_width_mm base_level_mm base_holes base_mass_kg
             weld_length_mm max_deviation_mm max_deviation_deg solid_file drawing_file""",
         "node_instances": """location mark i j x_mm y_mm z_mm axis_x axis_y axis_z ref_x ref_y ref_z
             mismatch_mm torsion_deg members panels deviation_mm deviation_deg""",
         "members": """mark quantity family section grade system_length_mm top_length_mm bottom_length_mm
             cut_length_mm end_angle_start_deg end_angle_end_deg set_back_start_mm set_back_end_mm mass_kg
-            total_mass_kg coated_area_m2 files""",
+            total_mass_kg coated_area_m2 holes files""",
         "member_instances": """location mark turned node_start node_end panel_left panel_right bar
             position_mm deviation_mm""",
         "panels": """mark quantity side_a_mm side_b_mm side_c_mm side_d_mm diagonal_1_mm diagonal_2_mm
@@ -90,7 +90,7 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
-    """quantity quantity_before valence slots facets holes base_holes i j first_corner parts cuts pieces count
+    """quantity quantity_before valence slots facets holes threads base_holes i j first_corner parts cuts pieces count
     parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes members_count
     member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
 )

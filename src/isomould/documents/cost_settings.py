@@ -4,8 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from isomould.documents.info import Text
-from isomould.settings import Settings
+from isomould.settings import Settings, Text
 from isomould.units import NonNegativeNumber
 
 Rate = NonNegativeNumber | None
@@ -23,6 +22,7 @@ class CostSettings(Settings):
     steel: Rate = _rate("/kg", "Steel of members, where no bars are in stock")
     node_steel: Rate = _rate("/kg", "Round bar that nodes are turned from")
     base_steel: Rate = _rate("/kg", "Base plates and stems of supports")
+    fitting_steel: Rate = _rate("/kg", "Steel of caps and end plates, where nodes have any")
     glass: Rate = _rate("/m²", "Panels by charged area, where no sheets are in stock")
     waste_members: Rate = _rate("%", "Waste on steel of members, where no bars are in stock")
     waste_panels: Rate = _rate("%", "Waste on panels, where no sheets are in stock")
@@ -31,15 +31,22 @@ class CostSettings(Settings):
     panel_pierce: Rate = _rate("/piece", "Starting a contour")
     member_set_up: Rate = _rate("/class", "Setting up for a member class")
     saw_cut: Rate = _rate("/cut", "End cut of a member, two per member")
+    member_hole: Rate = _rate("/piece", "Hole or slot of a member")
     hole: Rate = _rate("/piece", "Bore or hole of a node")
+    thread: Rate = _rate("/piece", "Tapping a hole of a node")
     node_set_up: Rate = _rate("/class", "Setting up for a node class")
     node_run: Rate = _rate("/piece", "Running one node")
     node_run_torsion: Rate = _rate("/piece", "Running one node with torsion, of other mesh families")
     slot: Rate = _rate("/piece", "Slot of a node")
     facet: Rate = _rate("/piece", "Facet of a node")
     weld: Rate = _rate("/m", "Weld between members and nodes")
-    coating: Rate = _rate("/m²", "Coating of nodes and members")
-    hardware: Rate = _rate("/node", "Bolts, washers and small parts")
+    cap: Rate = _rate("/piece", "Making a cap, where nodes have caps")
+    end_plate: Rate = _rate("/piece", "Making an end plate and welding it in, where members have any")
+    coating: Rate = _rate("/m²", "Coating of nodes, members and fittings")
+    hardware: Rate = _rate("/node", "Bolts, washers and small parts, where none are listed")
+    bolt: Rate = _rate("/piece", "Bolt, where hardware is listed")
+    nut: Rate = _rate("/piece", "Nut, where hardware is listed")
+    washer: Rate = _rate("/piece", "Washer, where hardware is listed")
     hours_node: Rate = _rate("h/node", "Hours to assemble a node")
     hours_member: Rate = _rate("h/member", "Hours to assemble a member")
     hours_panel: Rate = _rate("h/panel", "Hours to assemble a panel")

@@ -4,6 +4,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from isomould.documents.cost_settings import CostSettings
+from isomould.documents.detail_costs import (
+    Work,
+    coated_area,
+    delivered_masses,
+    fabrication_lines,
+    handled_pieces,
+    hardware_lines,
+    material_lines,
+    needless_rates,
+    steel_of_members,
+)
 from isomould.documents.live import Given, Here, Live, NamedCell, RateCell, add_up
 from isomould.documents.quantities import Blanks, Tables, count, matches, products, sum_if, total
 from isomould.documents.table import Table, make_live_table
@@ -94,7 +105,7 @@ def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
         Rates and stock prices.
     """
     by_name = {table.name: table for table in tables}
-    rates = make_rates(pricing)
+    rates = make_rates(pricing, by_name)
     lines = _line_table([*_lines(by_name, rates, pricing)])
     rate_table = make_rate_table(rates)
     waste = tuple(_stock_waste(by_name, pricing))
@@ -102,19 +113,19 @@ def make_cost(tables: Sequence[Table], pricing: Pricing) -> Cost:
     return Cost(rate_table, lines, results, next(r for r in results if r.name == "total_cost").live.value)
 
 
-def make_rates(pricing: Pricing) -> dict[str, Rate]:
-    """Give all input cells by their codes."""
-    return {rate.code: rate for rate in _rates(pricing)}
+def make_rates(pricing: Pricing, tables: Tables | None = None) -> dict[str, Rate]:
+    """Give all input cells by their codes; `tables` tell what hardware and fittings there are."""
+    return {rate.code: rate for rate in _rates(pricing, tables or {})}
 
 
-def _rates(pricing: Pricing) -> Iterator[Rate]:
+def _rates(pricing: Pricing, tables: Tables) -> Iterator[Rate]:
     """Stock prices first, then the rates of the project; what stock makes needless is left out."""
-    currency = pricing.rates.currency
+    currency, needless = pricing.rates.currency, _needless(pricing) | needless_rates(tables)
     for kind, prices in (("sheet", pricing.sheets), ("bar", pricing.bars)):
         for k, price in enumerate(prices, start=1):
             yield Rate(f"{kind}_{k}", f"Stock {kind}: {price.name}", f"{currency}/{kind}", price.price)
     for code, field in CostSettings.model_fields.items():
-        if code != "currency" and code not in _needless(pricing):
+        if code != "currency" and code not in needless:
             yield Rate(code, field.description or code, _unit(field, currency), _initial(code, pricing.rates))
 
 
@@ -152,23 +163,24 @@ def _material(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> It
         charged = products(tables, "panels.quantity", "charged_area_m2")
         yield Line("glass", "Material", "Panels, charged area", "m²", charged, rates["glass"], rates["waste_panels"])
     if not pricing.bars:
-        mass = total(tables, "members.total_mass_kg")
-        yield Line("steel", "Material", "Members", "kg", mass, rates["steel"], rates["waste_members"])
+        yield Line(
+            "steel", "Material", "Members", "kg", steel_of_members(tables), rates["steel"], rates["waste_members"]
+        )
     volume = [products(tables, "nodes.quantity", name) for name in ("volume_cm3", "removed_volume_cm3")]
     blanks = (volume[0] + volume[1]) * Given(pricing.node_density) / Given(1e6)
     yield Line("node_steel", "Material", "Round bar for nodes", "kg", blanks, rates["node_steel"])
     bases = products(tables, "nodes.quantity", "base_mass_kg")
     yield Line("base_steel", "Material", "Base plates and stems of supports", "kg", bases, rates["base_steel"])
+    for code, group, description, unit, quantity in material_lines(tables):
+        yield Line(code, group, description, unit, quantity, rates[code])
 
 
-def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, str, str, Live], ...]:
+def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[Work, ...]:
     """Code, group, description, unit and quantity of everything that is done."""
     pieces = {name: total(tables, f"{name}.quantity") for name in ("nodes", "members", "panels")}
     classes = {name: count(tables, f"{name}.mark") for name in ("nodes", "members", "panels")}
     taken = ("slots", "facets", "holes", "base_holes", "weld_length_mm")
     each = {name: products(tables, "nodes.quantity", name) for name in taken}
-    coated = [products(tables, f"{name}.quantity", "coated_area_m2") for name in ("nodes", "members")]
-    masses = [total(tables, f"{name}.total_mass_kg") for name in ("nodes", "members", "panels")]
     hours = [pieces[f"{name}s"] * rates[f"hours_{name}"].cell for name in ("node", "member", "panel")]
     thousand = Given(1000.0)
     return (
@@ -183,11 +195,12 @@ def _work(tables: Tables, rates: Mapping[str, Rate]) -> tuple[tuple[str, str, st
         ("facet", "Fabrication", "Facets of nodes", "pieces", each["facets"]),
         ("hole", "Fabrication", "Bores and holes of nodes and bases", "pieces", each["holes"] + each["base_holes"]),
         ("weld", "Fabrication", "Welds", "m", each["weld_length_mm"] / thousand),
-        ("coating", "Fabrication", "Coated area of nodes and members", "m²", coated[0] + coated[1]),
-        ("hardware", "Hardware", "Bolts, washers and small parts", "nodes", pieces["nodes"]),
+        *fabrication_lines(tables),
+        ("coating", "Fabrication", "Coated area of nodes, members and fittings", "m²", coated_area(tables)),
+        *hardware_lines(tables),
         ("assembly", "Assembly", "Hours in the shop", "h", add_up(hours)),
-        ("handling", "Transport", "Parts handled and packed", "pieces", add_up([*pieces.values()])),
-        ("transport", "Transport", "Mass of all parts", "t", add_up(masses) / thousand),
+        ("handling", "Transport", "Parts handled and packed", "pieces", handled_pieces(tables)),
+        ("transport", "Transport", "Mass of all parts", "t", delivered_masses(tables) / thousand),
         ("erect_node", "Erection", "Nodes", "pieces", pieces["nodes"]),
         ("erect_member", "Erection", "Members", "pieces", pieces["members"]),
         ("erect_panel", "Erection", "Panels", "pieces", pieces["panels"]),

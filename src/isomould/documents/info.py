@@ -1,23 +1,12 @@
 """Who and what a delivery is for: the `[project]` table."""
 
 import datetime
-import unicodedata
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import BeforeValidator, Field
 
-from isomould.settings import Settings
+from isomould.settings import Settings, Text
 from isomould.units import Coordinate, Number
-
-_LONGEST = 120
-
-
-def _one_line(text: str) -> str:
-    """Hold user text to one printable line in Unicode's composed form (failure mode A9)."""
-    if not text.isprintable():
-        message = "must be text without control characters, line breaks and direction marks"
-        raise ValueError(message)
-    return unicodedata.normalize("NFC", text)
 
 
 def _drawn_up(value: object) -> object:
@@ -26,10 +15,6 @@ def _drawn_up(value: object) -> object:
         message = f"{value!r} is not a date; a day such as 2026-11-02"
         raise ValueError(message)
     return value
-
-
-Text = Annotated[str, Field(max_length=_LONGEST), AfterValidator(_one_line)]
-"""One line of printable text."""
 
 
 class DatumSettings(Settings):

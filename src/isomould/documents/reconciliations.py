@@ -71,9 +71,15 @@ def _groups(tables: Tables) -> Live:
 
 
 def _masses(tables: Tables) -> Live:
-    """Mass of all parts in tonnes, part by part."""
+    """Mass of all parts in tonnes, part by part; caps are in no other part, end plates are in their members."""
     parts = [products(tables, f"{part}.quantity", "mass_kg") for part in ("nodes", "members", "panels")]
-    return _added(parts) / Given(1000.0)
+    caps = [sum_if(tables["fittings"], "kind", "cap", "total_mass_kg")] if "fittings" in tables else []
+    return _added([*parts, *caps]) / Given(1000.0)
+
+
+def _lines(*codes: str) -> Side:
+    """Add up the quantities of some lines of the cost."""
+    return lambda tables: _added([sum_if(tables["cost"], "code", code, "quantity") for code in codes])
 
 
 def _added(values: Sequence[Live]) -> Live:
@@ -141,6 +147,20 @@ _RECONCILED: tuple[tuple[str, str, Side, Side, float], ...] = (
         _MONEY_LIMIT,
     ),
     ("Price of bars = their lines of the cost", "cost bars", _sum("bars.price"), _stock_lines("bar_"), _MONEY_LIMIT),
+    (
+        "Bolts, nuts and washers paid for = hardware",
+        "cost hardware",
+        _lines("bolt", "nut", "washer"),
+        _products("hardware.quantity", "pieces"),
+        0.0,
+    ),
+    (
+        "Caps and end plates paid for = fittings",
+        "cost fittings",
+        _lines("cap", "end_plate"),
+        _sum("fittings.quantity"),
+        0.0,
+    ),
     ("Sub-totals = lines of the cost", "cost", _groups, _sum("cost.amount"), _MONEY_LIMIT),
 )
 """What is compared, the tables that it needs, both sides, and by how much they may differ."""

@@ -97,6 +97,7 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn:
         "slots": slots,
         "facets": facets,
         "holes": holes,
+        "threads": [joint.threads for joint in joints],
         **_base_columns(kit, asked.density),
         "weld_length_mm": [joint.weld_length for joint in joints],
         "max_deviation_mm": (deviation * diameter / 2).tolist(),
@@ -216,6 +217,7 @@ def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
         "set_back_end_mm": [shape.set_back[1] for shape in shapes],
         "mass_kg": [shape.volume * asked.density * _KG_PER_MM3 for shape in shapes],
         "coated_area_m2": [shape.paint_area / 1e6 for shape in shapes],
+        "holes": [len(shape.holes) for shape in shapes],
         "files": _files("members", members.marks, ("dxf", "nc1"), drawn=drawn),
     }
 

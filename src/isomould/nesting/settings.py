@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from isomould.settings import Settings
+from isomould.settings import Settings, Text
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
 
 Turning = Literal["none", "half", "quarter"]
@@ -12,7 +12,7 @@ Turning = Literal["none", "half", "quarter"]
 
 ROTATIONS_DEG: dict[Turning, tuple[int, ...]] = {"none": (0,), "half": (0, 180), "quarter": (0, 90, 180, 270)}
 
-StockName = Annotated[str, Field(min_length=1, max_length=120)]
+StockName = Annotated[Text, Field(min_length=1)]
 """Quoted in formulas of the workbook, which hold 255 characters."""
 
 

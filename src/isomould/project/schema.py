@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 from isomould.curves.plane import PlaneSettings
 from isomould.curves.settings import CurveSettings
 from isomould.documents.cost_settings import CostSettings
-from isomould.documents.info import ProjectInfo, Text
+from isomould.documents.info import ProjectInfo
 from isomould.form.rail import Ends
 from isomould.form.settings import (
     GeneratrixDivide,
@@ -18,7 +18,7 @@ from isomould.form.settings import (
 )
 from isomould.nesting.settings import StockSettings
 from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings, SlottedSettings
-from isomould.settings import Settings
+from isomould.settings import Settings, Text
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 from isomould.writers.names import safe_name
 from isomould.writers.settings import DeliverSettings

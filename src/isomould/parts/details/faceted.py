@@ -59,8 +59,12 @@ class FacetedJoint(Joint):
     @property
     def counts(self) -> tuple[int, int, int]:
         """Slots, facets, holes."""
-        threaded = sum(len(bolting.levels) for bolting in self.bolting)
-        return 0, len(self.bolting), threaded + int(self.bore > 0)
+        return 0, len(self.bolting), self.threads + int(self.bore > 0)
+
+    @property
+    def threads(self) -> int:
+        """A tapped hole for every bolt."""
+        return sum(len(bolting.levels) for bolting in self.bolting)
 
     @property
     def sizes(self) -> dict[str, Any]:

@@ -145,6 +145,11 @@ class Joint(ABC):
         """Slots, facets, holes."""
 
     @property
+    def threads(self) -> int:
+        """How many of the holes are tapped."""
+        return 0
+
+    @property
     @abstractmethod
     def sizes(self) -> dict[str, Any]:
         """Sizes that all nodes of the design share, as data for the verifier."""

@@ -132,7 +132,8 @@ def products(delivery: Delivery) -> Measured:
 
 
 def _total_columns(delivery: Delivery) -> list[tuple[str, str]]:
-    tables = [delivery.table(f"{part}s") for part in PARTS]
+    made = ["fittings"] if "fittings" in delivery.tables else []
+    tables = [delivery.table(name) for name in (*(f"{part}s" for part in PARTS), *made)]
     return [(table.name, column) for table in tables for column in table.columns if column.startswith("total_")]
 
 
