@@ -63,8 +63,8 @@ def make_books(delivery: Delivery) -> tuple[Book, ...]:
 def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, kit = tables["nodes"], delivery.design.kit
     rows = schedule_rows(table)
-    parts = zip(rows, delivery.solids, _set_backs(kit), map(detail_notes, kit.joints), strict=True)
-    drawn = [NodeDrawing(row, view_solid(solid), backs, notes) for row, solid, backs, notes in parts]
+    parts = zip(rows, delivery.solids, _set_backs(kit), map(detail_notes, kit.joints), kit.bases, strict=True)
+    drawn = [NodeDrawing(row, view_solid(solid), backs, notes, base) for row, solid, backs, notes, base in parts]
     pages = [node_sheet(stationery, table, node, k, len(rows)) for k, node in enumerate(drawn, start=1)]
     return Book("nodes", "Nodes", tuple(pages))
 

@@ -1,4 +1,4 @@
-"""Pages as DXF: those of a book side by side in paper millimetres, a layer per pen.
+"""Pages as DXF: those of a book side by side in paper millimetres, a layer per pen; QR codes are in the PDF only.
 
 ezdxf makes the file around the entities; the entities of hundreds of pages are written as tags straight away, which
 takes a twentieth of the time of building them one by one.
@@ -12,7 +12,7 @@ import numpy as np
 from ezdxf.filemanagement import new
 
 from isomould.documents.shop.font import text_width
-from isomould.documents.shop.page import Arc, Book, Item, Line, Pen, Text
+from isomould.documents.shop.page import Arc, Book, Code, Item, Line, Pen, Text
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import dxf_bytes, fixed_meta_data
 
@@ -41,7 +41,8 @@ def write_pages(path: Path, book: Book) -> None:
         If the file cannot be written.
     """
     lefts = np.cumsum([0.0, *(page.size[0] + _BETWEEN for page in book.pages)]).tolist()
-    bodies = [_body(item, left) for page, left in zip(book.pages, lefts, strict=False) for item in page.items]
+    placed = [(item, left) for page, left in zip(book.pages, lefts, strict=False) for item in page.items]
+    bodies = [_body(item, left) for item, left in placed if not isinstance(item, Code)]
     with fixed_meta_data():
         write_bytes(path, _document(bodies, (lefts[-1], max(page.size[1] for page in book.pages))))
 

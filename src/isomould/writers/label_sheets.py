@@ -1,16 +1,16 @@
 """Label sheets as PDF: A4 with 3 × 8 labels of 70 × 37 mm, each with a QR code; the same bytes every time."""
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-import segno
 from reportlab import rl_config
 from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
 
 from isomould.documents.ascii import plain_text
 from isomould.documents.labels import PieceLabel
+from isomould.writers.codes import draw_code
 from isomould.writers.disk import write_bytes
 
 _MM = 72 / 25.4
@@ -55,7 +55,7 @@ def _add_sheet(canvas: Canvas, labels: Sequence[PieceLabel]) -> None:
 
 def _add_label(canvas: Canvas, label: PieceLabel) -> None:
     """Draw the code on the left; mark, location, crate and project under each other on its right."""
-    _add_code(canvas, label.code)
+    draw_code(canvas, label.code, (_LEFT, _BELOW), _CODE)
     x, y = _TEXT
     for text, height, drop in ((label.mark, 7.0, 6.0), (label.location, 4.5, 8.0), (label.crate, 3.5, 7.0)):
         y -= drop
@@ -68,23 +68,3 @@ def _write(canvas: Canvas, x: float, y: float, text: str, size: float) -> None:
     width = stringWidth(text, "Helvetica-Bold", size)
     canvas.setFont("Helvetica-Bold", size if width <= _WIDTH else size * _WIDTH / width)
     canvas.drawString(x, y, text)
-
-
-def _add_code(canvas: Canvas, text: str) -> None:
-    """Draw a QR code (level M) as one path: a bar for every run of dark modules of a row."""
-    matrix = segno.make_qr(text, error="m", boost_error=False).matrix
-    module, path = _CODE / len(matrix), canvas.beginPath()
-    for k, row in enumerate(matrix):
-        for start, end in _runs(row):
-            path.rect(_LEFT + start * module, _BELOW + _CODE - (k + 1) * module, (end - start) * module, module)
-    canvas.drawPath(path, stroke=0, fill=1)
-
-
-def _runs(row: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Give the beginnings and ends of the runs of dark modules.
-
-    >>> list(_runs([1, 1, 0, 1]))
-    [(0, 2), (3, 4)]
-    """
-    edges = [k for k, (before, after) in enumerate(zip((0, *row), (*row, 0), strict=True)) if before != after]
-    return zip(edges[::2], edges[1::2], strict=True)

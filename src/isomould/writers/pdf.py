@@ -9,7 +9,8 @@ from reportlab import rl_config
 from reportlab.pdfgen.canvas import Canvas
 
 from isomould.documents.shop.font import font_size, text_width
-from isomould.documents.shop.page import Arc, Book, Item, Line, Page, Pen, Text
+from isomould.documents.shop.page import Arc, Book, Code, Item, Line, Page, Pen, Text
+from isomould.writers.codes import draw_code
 from isomould.writers.disk import write_bytes
 
 _POINT = 72 / 25.4
@@ -50,8 +51,11 @@ def _add_page(canvas: Canvas, page: Page) -> None:
     for pen in _WIDTHS:
         _use(canvas, pen)
         for item in page.items:
-            if not isinstance(item, Text) and item.pen == pen:
+            if isinstance(item, Line | Arc) and item.pen == pen:
                 _draw(item, canvas)
+    for code in page.items:
+        if isinstance(code, Code):
+            draw_code(canvas, code.text, code.at, code.side)
     _write_texts(canvas, [item for item in page.items if isinstance(item, Text)])
     canvas.showPage()
 

@@ -7,9 +7,10 @@ import shapely
 
 from isomould.arrays import Floats
 from isomould.documents.shop.font import depth_below, text_width
-from isomould.documents.shop.page import Arc, Item, Line, Page, Text
+from isomould.documents.shop.page import Arc, Code, Item, Line, Page, Text
 
 _CHORDS = 24
+_SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0], [1, 1], [1, 0], [0, 1]], dtype=float)
 _SHARE = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
 
@@ -43,8 +44,13 @@ def lines_of(items: Iterable[Item]) -> list[shapely.LineString]:
     return [shapely.LineString(points_of(item)) for item in items if not isinstance(item, Text)]
 
 
-def points_of(item: Line | Arc) -> Floats:
-    """Give the points (n, 2) that a line runs through, the first again where it is closed; of an arc, its chords."""
+def points_of(item: Line | Arc | Code) -> Floats:
+    """Give the points (n, 2) that a line runs through, the first again where it is closed; of an arc, its chords.
+
+    A code is a square with its diagonals, so that no text can lie in it.
+    """
+    if isinstance(item, Code):
+        return np.array(item.at) + item.side * _SQUARE
     if isinstance(item, Line):
         return np.concatenate([item.points, item.points[:1]]) if item.closed else item.points
     angle = np.linspace(item.start, item.end, _CHORDS + 1)

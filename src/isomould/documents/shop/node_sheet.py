@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from isomould.arrays import Floats
+from isomould.documents.shop.base_view import base_views
 from isomould.documents.shop.dimensions import FIRST, Span, above, left_of, stack
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import (
@@ -28,6 +29,7 @@ from isomould.documents.shop.title_block import Stationery, Subject, finish, roo
 from isomould.documents.shop.view import View, fit_scale, scale_text
 from isomould.documents.table import Table
 from isomould.parts.sections import Polygons, SolidViews
+from isomould.parts.supports import Base
 
 _STUB, _BALLOON = 15.0, 3.0
 """Length of an arm's line beyond the solid, and radius of the circle around its number, mm on paper."""
@@ -37,12 +39,13 @@ _ARM_HEADING = ("Arm", "Azimuth °", "Elev. °", "Family", "Section", "Set-back"
 
 @dataclass(frozen=True, eq=False)
 class NodeDrawing:
-    """What is drawn of a node class: its row in the schedule, its solid, the set-backs of its arms, notes."""
+    """What is drawn of a node class: its row in the schedule, its solid, set-backs of its arms, notes, its base."""
 
     row: Row
     views: SolidViews
     set_backs: tuple[str, ...]
     notes: tuple[str, ...]
+    base: Base | None = None
 
 
 def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: int, sheets: int) -> Page:
@@ -56,11 +59,14 @@ def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: i
     scale = _scale(node.views, (column - left - 2, top - bottom))
     drawn = _views(node, scale, (left + column - 2) / 2, (bottom, top))
     under = top - grid_size(tables[0])[1] - 6
+    noted = under - grid_size(arms, SMALLEST)[1] - 8
+    free = (column, bottom, right, noted - 4.5 * len(node.notes) - 2)
     items = [
         *drawn,
         *grid(tables[0], (column, top)),
         *grid(arms, (column, under), SMALLEST),
-        *_notes(node.notes, column, under - grid_size(arms, SMALLEST)[1] - 8),
+        *_notes(node.notes, column, noted),
+        *(base_views(node.base, free) if node.base else []),
     ]
     return finish(stationery, Subject("Node", node.row["mark"], scale_text(scale), sheet, sheets), size, items)
 

@@ -53,7 +53,16 @@ class Text:
     bold: bool = False
 
 
-Item = Line | Arc | Text
+@dataclass(frozen=True)
+class Code:
+    """A QR code that says `text`; its lower left corner and its side without the quiet zone, mm."""
+
+    text: str
+    at: tuple[float, float]
+    side: float
+
+
+Item = Line | Arc | Text | Code
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,28 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.documents.info import ProjectInfo
 from isomould.documents.shop.font import depth_below, text_width
-from isomould.documents.shop.page import BINDING, MARGIN, SMALLEST, Arc, Item, Line, Page, Paper, Text
+from isomould.documents.shop.page import BINDING, MARGIN, SMALLEST, Arc, Code, Item, Line, Page, Paper, Text
 from isomould.settings import Settings
 
 Value = Literal[
-    "name", "number", "client", "revision", "author", "date", "title", "part", "scale", "sheet", "units", "projection"
+    "name",
+    "number",
+    "client",
+    "revision",
+    "author",
+    "date",
+    "title",
+    "part",
+    "scale",
+    "sheet",
+    "units",
+    "projection",
+    "code",
 ]
 _HEIGHTS = (7.0, 5.0, 3.5, 2.5, SMALLEST)
 _SIDE, _LABEL, _SPACING = 1.5, 3.2, 1.5
+_CODE = 18.0
+"""Side of the QR code, mm: around it, its cell leaves four modules and more of quiet zone."""
 UNITS = "mm, °, kg, m²"
 
 
@@ -49,6 +63,11 @@ class Subject:
     sheet: int
     sheets: int
 
+    @property
+    def name(self) -> str:
+        """The part, or title and number of a sheet that shows many."""
+        return self.part or f"{self.title} {self.sheet}"
+
 
 @dataclass(frozen=True)
 class Stationery:
@@ -72,8 +91,7 @@ def finish(stationery: Stationery, subject: Subject, size: tuple[float, float], 
     corner = np.array([size[0] - MARGIN - block.width, MARGIN])
     cells = [item for cell in block.cells for item in _cell(cell, corner, values)]
     border = Line("frame", _box(*corner, *(corner + np.array([block.width, block.height]))), closed=True)
-    name = subject.part or f"{subject.title} {subject.sheet}"
-    return Page(name, size, (frame, border, *cells, *items))
+    return Page(subject.name, size, (frame, border, *cells, *items))
 
 
 def room(stationery: Stationery, size: tuple[float, float]) -> tuple[float, float, float, float]:
@@ -96,6 +114,7 @@ def _values(info: ProjectInfo, subject: Subject) -> Mapping[Value, str]:
         "scale": subject.scale,
         "sheet": f"{subject.sheet} of {subject.sheets}",
         "units": UNITS,
+        "code": f"{info.number}/{info.revision}/{subject.name}",
     }
 
 
@@ -103,9 +122,12 @@ def _cell(cell: Cell, corner: Floats, values: Mapping[Value, str]) -> list[Item]
     (x, y), (width, height) = np.array(cell.at) + corner, cell.size
     label = Text(cell.label, (float(x) + _SIDE, float(y) + height - 2.6), SMALLEST)
     border = Line("thin", _box(x, y, x + width, y + height), closed=True)
-    content = _symbol(x + width / 2 + 4, y + height / 2 - 1) if cell.value == "projection" else []
-    text = values.get(cell.value, "")
-    return [border, label, *content, *(_lines(text, cell, float(x) + _SIDE, float(y)) if text else [])]
+    if cell.value == "projection":
+        return [border, label, *_symbol(x + width / 2 + 4, y + height / 2 - 1)]
+    text = values[cell.value]
+    if cell.value == "code":
+        return [border, Code(text, (float(x + (width - _CODE) / 2), float(y + (height - _CODE) / 2)), _CODE)]
+    return [border, label, *(_lines(text, cell, float(x) + _SIDE, float(y)) if text else [])]
 
 
 def _lines(text: str, cell: Cell, x: float, y: float) -> list[Text]:
