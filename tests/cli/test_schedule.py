@@ -7,7 +7,7 @@ import shutil
 import pytest
 
 import isomould
-from museum import SMALL, write_project
+from museum import SMALL, changed, write_project
 
 
 @pytest.fixture(scope="module")
@@ -67,3 +67,12 @@ def test_a_delivery_does_not_pass_for_schedules(built_folder, tmp_path):
     (copied / "manifest.json").write_text(json.dumps(manifest | {"scope": "schedules"}))
     failures = {check.id: check.reason for check in isomould.verify(copied, jobs=1).failures}
     assert "is no schedule" in failures["V50"]
+
+
+def test_sheets_that_are_nearly_all_waste_are_noted(tmp_path):
+    """A sheet in the wrong unit: 40 m wide."""
+    sheets = [{**SMALL["stock"]["sheets"][0], "width": "40 m", "height": "25 m"}]
+    project = write_project(tmp_path / "wide.toml", changed(SMALL, stock={"sheets": sheets}))
+    built = isomould.schedule(project, tmp_path / "out", run=isomould.Run(effort="quick", jobs=1))
+    (note,) = [note for note in built.design.notes if note.code == "W-NEST-WASTE"]
+    assert "% of the sheets is waste" in note.text
