@@ -107,7 +107,7 @@ def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
     """
     with candidate(target, replace=run.overwrite) as folder, workers(run.jobs) as spread:
         designs, kit = _design(loaded, run)
-        delivery = _compute(designs[MAIN], kit, loaded.logo, run, spread)
+        delivery = replace(_compute(designs[MAIN], kit, loaded.logo, run, spread), filed=False)
         run.report("schedules")
         write_record(folder / "model", delivery)
         write_schedules(folder, delivery)

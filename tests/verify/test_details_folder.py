@@ -146,6 +146,7 @@ SEEDS = {
     "bolt hole of an end plate": ("faceted", "V39", edit_drawing("fittings/*.dxf", "DRILL", grow)),
     "cap squashed flat": ("capped", "V39b", edit_solid("fittings/*.3mf", lambda x: 0.0)),
     "one bolt less": ("faceted", "V39c", edit_row("hardware", put("pieces", "1"))),
+    "caps of another mass in all": ("capped", "V44", edit_row("fittings", put("total_mass_kg", "1"))),
     "caps of one node less": ("capped", "V39c", edit_row("fittings", put("quantity", "2"))),
 }  # fmt: skip
 

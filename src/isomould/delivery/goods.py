@@ -15,7 +15,7 @@ from isomould.documents.schedules import part_tables
 from isomould.documents.setting_out import SettingOut, set_out, setting_out_table
 from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
-from isomould.documents.table import Table
+from isomould.documents.table import Table, without_files
 from isomould.documents.title_block import Logo
 from isomould.parts.details.fittings import Fitting, make_fittings
 from isomould.parts.plates import Shape
@@ -29,7 +29,7 @@ class Delivery:
     """Everything that is written: the design, its node solids, the surfaces of all parts by mark, its layouts.
 
     `former` is the delivery that it revises, `kit` the nodes that other shapes share with it, `logo`
-    stands on the cover.
+    stands on the cover; `filed` says whether the files that schedules name are written.
     """
 
     design: Design
@@ -39,11 +39,13 @@ class Delivery:
     former: Former | None = None
     kit: Table | None = None
     logo: Logo | None = None
+    filed: bool = True
 
     @cached_property
     def schedules(self) -> tuple[Table, ...]:
         """Parts, stock and strips, in the order of the workbook."""
-        return make_schedules(self)
+        tables = make_schedules(self)
+        return tables if self.filed else tuple(map(without_files, tables))
 
     @cached_property
     def compared(self) -> tuple[Compared, ...]:

@@ -55,6 +55,16 @@ def make_live_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:
     return replace(make_table(name, plain), live={c: vs for c, vs in live.items() if any(vs)})
 
 
+FILES = ("file", "files", "solid_file", "drawing_file")
+"""Columns that name files of the delivery."""
+
+
+def without_files(table: Table) -> Table:
+    """Leave the names of files blank, in a folder that holds none of them."""
+    named = [column for column in FILES if column in table.frame]
+    return replace(table, frame=table.frame.assign(**dict.fromkeys(named, ""))) if named else table
+
+
 def make_table(name: str, data: Mapping[str, Iterable[object]]) -> Table:
     """Make the table `name` from its columns; numbers are rounded here and nowhere else.
 

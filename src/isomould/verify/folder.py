@@ -71,7 +71,7 @@ _GROUPS = (
 )
 
 
-_SCHEDULED = (panels, nodes, polygons, topology, workbook, parquet, totals, manifest)
+_SCHEDULED = (panels, nodes, polygons, topology, workbook, parquet, totals, packing, manifest)
 """What can be proved of schedules alone."""
 
 
@@ -96,7 +96,7 @@ def _each_shape(delivery: Delivery) -> Measured:
 RULES = _rules(_GROUPS, Rule("V60", "the other shapes pass their own checks", 0, "checks", _each_shape))
 """Every check there is, in the order of the certificate."""
 
-SCHEDULE_RULES = _rules(_SCHEDULED)
+SCHEDULE_RULES = _rules(_SCHEDULED, *setting_out.TABLE_RULES)
 """The checks of a folder that holds schedules only."""
 
 
