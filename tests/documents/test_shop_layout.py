@@ -159,3 +159,15 @@ def test_texts_inside_outlines():
 def test_standard_scales_and_papers():
     assert fit_scale((2000.0, 100.0), (210.0, 100.0)) == 10.0
     assert [choose_paper(None, 20.0), choose_paper(None, 50.0), choose_paper("A4", 50.0)] == ["A4", "A3", "A4"]
+
+
+def test_running_dimensions_of_two_sides_keep_clear_of_each_other_at_their_corner():
+    marks = [(0.4 * k, f"{k}.125") for k in range(9)]
+    sides = [Side(np.full(2, 100.0), np.eye(2)[k], -np.eye(2)[1 - k]) for k in (0, 1)]
+
+    def page(**least):
+        drawn = [item for side in sides for item in running(side, marks, **least)]
+        return Page("M01", (210.0, 297.0), tuple(drawn))
+
+    assert clashes(page())
+    assert clashes(page(least=-3.0)) == ()
