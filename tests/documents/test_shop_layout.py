@@ -9,11 +9,11 @@ from reportlab.pdfbase.pdfmetrics import stringWidth
 from isomould.documents.info import ProjectInfo
 from isomould.documents.shop.checks import clashes
 from isomould.documents.shop.dimensions import Side, Span, below, running, stack
-from isomould.documents.shop.font import font_size, text_width
+from isomould.documents.shop.font import drawable, font_size, text_width
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import Arc, Line, Page, Text, reading
 from isomould.documents.shop.placing import collide, free_text, place_all, segments, within
-from isomould.documents.shop.title_block import Stationery, Subject, finish, read_title_block
+from isomould.documents.shop.title_block import PLAIN_NOTE, Stationery, Subject, finish, read_title_block
 from isomould.documents.shop.view import choose_paper, fit_scale
 from isomould.errors import Refused
 from isomould.templates import template_folder
@@ -37,8 +37,25 @@ def test_widths_are_those_of_the_font_that_is_written(bold):
 
 
 def test_characters_without_a_width_are_refused():
-    with pytest.raises(Refused, match=r"E-DRAW-FONT.*Łódź.*Windows-1252.*deliver.drawings"):
-        text_width("Łódź", 2.5)
+    with pytest.raises(Refused, match=r"E-DRAW-FONT.*日本.*Windows-1252.*deliver.drawings"):
+        text_width(drawable("日本"), 2.5)
+
+
+def test_latin_letters_are_written_plainly_where_the_font_lacks_them():
+    latin = [chr(k) for k in range(0xC0, 0x180) if chr(k) not in "×÷ĸŉ"] + list("ẞșțƒəŋễǅﬁ‐")
+    assert all(character in CHARACTERS for character in "".join(map(drawable, latin)))
+    assert drawable("".join(CHARACTERS)) == CHARACTERS
+    assert drawable("Łódź Đurđevac İstanbul ışık Ŋ q̃ ẞ ŀ") == "Lódz Durdevac Istanbul isik N q SS l·"
+
+
+def test_the_title_block_says_what_is_written_plainly():
+    for name, shown, note in (("Kładka", "Kladka", [PLAIN_NOTE]), ("Süd", "Süd", [])):
+        info = ProjectInfo(name=name, number="Ł1") if note else ProjectInfo(name=name)
+        page = finish(Stationery(BLOCK, info), SUBJECT, (210.0, 297.0), [])
+        texts = [item.text for item in page.items if isinstance(item, Text)]
+        assert shown in texts
+        assert [text for text in texts if text == PLAIN_NOTE] == note
+        assert clashes(page) == ()
 
 
 CLASHES = {
@@ -142,3 +159,15 @@ def test_texts_inside_outlines():
 def test_standard_scales_and_papers():
     assert fit_scale((2000.0, 100.0), (210.0, 100.0)) == 10.0
     assert [choose_paper(None, 20.0), choose_paper(None, 50.0), choose_paper("A4", 50.0)] == ["A4", "A3", "A4"]
+
+
+def test_running_dimensions_of_two_sides_keep_clear_of_each_other_at_their_corner():
+    marks = [(0.4 * k, f"{k}.125") for k in range(9)]
+    sides = [Side(np.full(2, 100.0), np.eye(2)[k], -np.eye(2)[1 - k]) for k in (0, 1)]
+
+    def page(**least):
+        drawn = [item for side in sides for item in running(side, marks, **least)]
+        return Page("M01", (210.0, 297.0), tuple(drawn))
+
+    assert clashes(page())
+    assert clashes(page(least=-3.0)) == ()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from isomould.delivery.goods import Delivery
 from isomould.documents.shop.arrangement import arrangement_pages
+from isomould.documents.shop.font import drawable
 from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.node_sheet import NodeDrawing, node_sheet
 from isomould.documents.shop.page import Book
@@ -130,7 +131,7 @@ def _panels(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
 def panel_notes(panels: PanelSettings) -> tuple[str, ...]:
     """Say what panels are made of and which side is drawn."""
     side = "Either side may lie outside" if panels.flippable else "Outside: the side that is seen here"
-    return f"{panels.makeup}, {length_text(panels.thickness)} thick", side
+    return f"{drawable(panels.makeup)}, {length_text(panels.thickness)} thick", side
 
 
 def _arrangement(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:

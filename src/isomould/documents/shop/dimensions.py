@@ -175,15 +175,19 @@ def arrow(tip: Floats, back: Floats) -> Line:
     return Line("thin", np.array([tip, foot + across, foot - across]), closed=True, filled=True)
 
 
-def running(side: Side, marks: Sequence[tuple[float, str]], first: float = FIRST) -> list[Item]:
+def running(side: Side, marks: Sequence[tuple[float, str]], first: float = FIRST, least: float = -np.inf) -> list[Item]:
     """Draw running dimensions from a common origin: a text at the end of every extension line, moved apart.
 
     Parameters
     ----------
     marks : sequence of (u, text)
         Sorted by u.
+    least : float, mm
+        Where the first text stands at least, so that those of two sides keep clear of each other at their corner.
     """
-    places = spread_out([u for u, _ in marks], SMALL + 1.2)
+    pitch = SMALL + 1.2
+    spread = spread_out([u for u, _ in marks], pitch)
+    places = [max(place, least + k * pitch) for k, place in enumerate(spread)]
     items = list[Item]()
     for (u, text), place in zip(marks, places, strict=True):
         line = np.array([side.at(u, _GAP), side.at(u, first - 4), side.at(place, first - 1), side.at(place, first)])

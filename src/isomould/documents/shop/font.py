@@ -1,6 +1,9 @@
 """Widths of texts in Helvetica and Arial, whose characters are equally wide: what lays texts out without overlap."""
 
 import functools
+import re
+import unicodedata
+from itertools import filterfalse
 
 from isomould.errors import Refused
 
@@ -39,6 +42,37 @@ def _table(widths: str) -> dict[str, int]:
 
 
 _WIDTHS = {False: _table(_REGULAR), True: _table(_BOLD)}
+_NAME = re.compile(r"LATIN (CAPITAL|SMALL) LETTER (?:DOTLESS |OPEN )?(SHARP S|ENG|EZH|ESH|SCHWA|[A-Z])(?: WITH .*)?")
+_WORDS = {"SHARP S": "SS", "ENG": "N", "EZH": "Z", "ESH": "S", "SCHWA": "E"}
+
+
+def drawable(text: str) -> str:
+    """Give text in the characters of the font: Latin letters that it lacks lose their accents and strokes.
+
+    Dashes become hyphens. What has no plain Latin form stays, and is refused where it is drawn.
+
+    >>> drawable("Łódź, Süd – Đakovo № 2"), drawable("日本")
+    ('Lódz, Süd – Dakovo No 2', '日本')
+    """
+    return "".join(_plain(character) for character in unicodedata.normalize("NFC", text))
+
+
+def _plain(character: str) -> str:
+    """Keep a character that the font has, else take its compatible parts without their marks."""
+    if character in _WIDTHS[False]:
+        return character
+    return "".join(map(_letter, filterfalse(unicodedata.combining, unicodedata.normalize("NFKD", character))))
+
+
+def _letter(character: str) -> str:
+    """Give the letter that a Latin one with a stroke or hook is named after."""
+    found = _NAME.fullmatch(unicodedata.name(character, ""))
+    if character in _WIDTHS[False]:
+        return character
+    if not found:
+        return "-" if unicodedata.category(character) == "Pd" else character
+    letter = _WORDS.get(found[2], found[2])
+    return letter if found[1] == "CAPITAL" else letter.lower()
 
 
 @functools.cache
@@ -62,7 +96,7 @@ def text_width(text: str, height: float, *, bold: bool = False) -> float:
             "E-DRAW-FONT",
             "a text of the drawings",
             f"{text!r} with {' '.join(missing)}",
-            "the characters of Windows-1252, which the fonts of all PDF readers have",
+            "Latin letters and what else Windows-1252 has, as do the fonts of all PDF readers",
             "Write it in these, or leave the drawings out: deliver.drawings = false.",
         )
     return sum(map(widths.__getitem__, text)) / _CAPITAL * height

@@ -9,7 +9,7 @@ import shapely
 from isomould.arrays import Floats
 from isomould.documents.shop.dimensions import Side, Span, above, below, left_of, running, stack, stack_height
 from isomould.documents.shop.grid import grid, grid_size
-from isomould.documents.shop.page import NORMAL, SMALLEST, Arc, Item, Line, Page, Paper, Text, paper_size, point
+from isomould.documents.shop.page import NORMAL, SMALL, SMALLEST, Arc, Item, Line, Page, Paper, Text, paper_size, point
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import View, choose_paper, fit_scale, scale_text
@@ -21,6 +21,8 @@ _END_SHARE = 0.75
 """How much of an end is enlarged, in depths of the section."""
 _END_ROOM = (48.0, 42.0)
 _A4_WIDTH = 257.0
+_CORNER = -3.0
+"""From the tip of an enlarged end outwards to the first running dimension of both its sides, mm."""
 _LEVEL = 0.0035
 """Corners on one level line: heights of drums are rounded down to 0.001 mm, corners to the nearest."""
 _MOST_HOLES: dict[Paper, int] = {"A4": 7, "A3": 20}
@@ -54,7 +56,7 @@ def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sh
         *_elevation(member, scale, ((left + right) / 2, top)),
         *_end(member, ends, np.array([left + 24, low]), 1),
         *_end(member, ends, np.array([left + 129, low]), -1),
-        *_section(member, ends, np.array([left + 163, low])),
+        *_section(member, ends, np.array([left + 167, low])),
         *_holes(member.shape.holes, paper, (left, bottom)),
     ]
     scales = f"{scale_text(scale)} ({scale_text(ends)})"
@@ -144,12 +146,14 @@ def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item
     foot = Side(at, np.array([float(way), 0.0]), np.array([0.0, -1.0]))
     word = "start" if way > 0 else "end"
     caption = f"{word.capitalize()}: end angle {member.row[f'end_angle_{word}_deg']}°"
-    head = at + np.array([way * reach / 2 / scale, _depth(member) / scale + 8])
+    heights = running(side, [(value / scale, length_text(value)) for value in y.tolist()], least=_CORNER)
+    top = max(item.at[1] for item in heights if isinstance(item, Text)) + SMALL + 2
+    head = np.array([at[0] + way * reach / 2 / scale, max(at[1] + _depth(member) / scale + 8, top)])
     return [
         *_clipped(view, outline, tip + way * reach),
         *_drilled(view, [hole for hole in member.shape.holes if (hole.x - tip) * way < reach]),
-        *running(side, [(value / scale, length_text(value)) for value in y.tolist()]),
-        *running(foot, [(value / scale, length_text(value)) for value in x.tolist()]),
+        *heights,
+        *running(foot, [(value / scale, length_text(value)) for value in x.tolist()], least=_CORNER),
         Text(caption, point(head), NORMAL, "middle"),
     ]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.documents.info import ProjectInfo
-from isomould.documents.shop.font import depth_below, text_width
+from isomould.documents.shop.font import depth_below, drawable, text_width
 from isomould.documents.shop.page import BINDING, MARGIN, SMALLEST, Arc, Code, Item, Line, Page, Paper, Text
 from isomould.settings import Settings
 
@@ -33,6 +33,9 @@ _SIDE, _LABEL, _SPACING = 1.5, 3.2, 1.5
 _CODE = 18.0
 """Side of the QR code, mm: around it, its cell leaves four modules and more of quiet zone."""
 UNITS = "mm, °, kg, m²"
+PLAIN_NOTE = (
+    "Letters that the font of the drawings lacks stand without accents and strokes; the schedules have them as given."
+)
 
 
 class Cell(Settings):
@@ -91,7 +94,13 @@ def finish(stationery: Stationery, subject: Subject, size: tuple[float, float], 
     corner = np.array([size[0] - MARGIN - block.width, MARGIN])
     cells = [item for cell in block.cells for item in _cell(cell, corner, values)]
     border = Line("frame", _box(*corner, *(corner + np.array([block.width, block.height]))), closed=True)
-    return Page(subject.name, size, (frame, border, *cells, *items))
+    return Page(subject.name, size, (frame, border, *cells, *_note(values), *items))
+
+
+def _note(values: Mapping[Value, str]) -> list[Text]:
+    """Say under the frame that letters of the title block are not those that were given."""
+    kept = all(drawable(text) == text for value, text in values.items() if value != "code")
+    return [] if kept else [Text(PLAIN_NOTE, (BINDING, MARGIN - 4.0), SMALLEST)]
 
 
 def room(stationery: Stationery, size: tuple[float, float]) -> tuple[float, float, float, float]:
@@ -127,7 +136,7 @@ def _cell(cell: Cell, corner: Floats, values: Mapping[Value, str]) -> list[Item]
     text = values[cell.value]
     if cell.value == "code":
         return [border, Code(text, (float(x + (width - _CODE) / 2), float(y + (height - _CODE) / 2)), _CODE)]
-    return [border, label, *(_lines(text, cell, float(x) + _SIDE, float(y)) if text else [])]
+    return [border, label, *(_lines(drawable(text), cell, float(x) + _SIDE, float(y)) if text else [])]
 
 
 def _lines(text: str, cell: Cell, x: float, y: float) -> list[Text]:
