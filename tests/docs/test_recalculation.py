@@ -55,20 +55,43 @@ def predict(folder, rates):
     return works * (1 + rates["overhead"] / 100) * (1 + rates["margin"] / 100)
 
 
+def rate_cells(folder):
+    """Row on the sheet, and value, of every rate by its code."""
+    return {row["code"]: (k, float(row["value"] or 0)) for k, row in enumerate(read(folder, "rates"), start=2)}
+
+
+def with_rates(folder, rates, target):
+    """Copy the workbook with other rates in its input cells."""
+    book, cells = folder / "schedules.xlsx", rate_cells(folder)
+    sheet = openpyxl.load_workbook(book, read_only=True).sheetnames.index("Rates") + 1
+    for code, value in rates.items():
+        if value != cells[code][1]:
+            book = with_cell(book, sheet, f"D{cells[code][0]}", value, target.with_stem(f"{target.stem}-{code}"))
+    return book
+
+
+def total_cost(book):
+    found = openpyxl.load_workbook(book, data_only=True)
+    title, cell = found.defined_names["total_cost"].value.replace("$", "").rsplit("!", 1)
+    return found[title.strip("'")][cell].value
+
+
 @pytest.mark.slow
 @needs_libreoffice
+def test_other_rates_move_the_total_as_predicted(built_folder, tmp_path):
+    """All at once, each by a share of its own: what is added twice or left out would show."""
+    given = [(code, value) for code, (_, value) in rate_cells(built_folder).items()]
+    rates = {code: value * (1.1 + k / 100) for k, (code, value) in enumerate(given)}
+    (book,) = recalculate([with_rates(built_folder, rates, tmp_path / "raised.xlsx")], tmp_path)
+    assert total_cost(book) == pytest.approx(predict(built_folder, rates), rel=1e-12)
+
+
+@pytest.mark.long
+@needs_libreoffice
 def test_a_tenth_more_on_any_rate_moves_the_total_as_predicted(built_folder, tmp_path):
-    book = built_folder / "schedules.xlsx"
-    rows = {row["code"]: (k, float(row["value"] or 0)) for k, row in enumerate(read(built_folder, "rates"), start=2)}
-    rates = {code: value for code, (_, value) in rows.items()}
-    sheet = openpyxl.load_workbook(book, read_only=True).sheetnames.index("Rates") + 1
+    rates = {code: value for code, (_, value) in rate_cells(built_folder).items()}
     raised = {code: rates | {code: value * 1.1} for code, value in rates.items() if value}
-    changed = [
-        with_cell(book, sheet, f"D{rows[code][0]}", after[code], tmp_path / f"{code}.xlsx")
-        for code, after in raised.items()
-    ]
+    changed = [with_rates(built_folder, after, tmp_path / "one.xlsx") for after in raised.values()]
     assert len(changed) > 12
-    for path, after in zip(recalculate(changed, tmp_path), raised.values(), strict=True):
-        found = openpyxl.load_workbook(path, data_only=True)
-        title, cell = found.defined_names["total_cost"].value.replace("$", "").rsplit("!", 1)
-        assert found[title.strip("'")][cell].value == pytest.approx(predict(built_folder, after), rel=1e-12)
+    for book, after in zip(recalculate(changed, tmp_path), raised.values(), strict=True):
+        assert total_cost(book) == pytest.approx(predict(built_folder, after), rel=1e-12)

@@ -12,6 +12,7 @@ from verify_museum import holding
 import isomould
 from isomould.documents.member_files import member_drawing
 from isomould.documents.nc_parts import Blank, nc_part, plate_profile
+from isomould.parts.catalogue import PlateSection
 from isomould.parts.features import Hole
 from isomould.parts.members import MemberShape
 from isomould.verify.checks.machines import contours
@@ -123,6 +124,7 @@ def test_every_fault_is_found(folder, name):
 
 
 LENGTHS = {
+    "section": PlateSection(depth=200, thickness=12),
     "system_length": 480.0,
     "top_length": 440.0,
     "bottom_length": 400.0,
