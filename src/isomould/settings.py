@@ -22,5 +22,11 @@ def _one_line(text: str) -> str:
     return unicodedata.normalize("NFC", text)
 
 
-Text = Annotated[str, Field(max_length=_LONGEST), AfterValidator(_one_line)]
+ONE_LINE = AfterValidator(_one_line)
+"""Stands behind the limits of a text's length, which would not know it as a text after it."""
+
+Text = Annotated[str, Field(max_length=_LONGEST), ONE_LINE]
 """One line of printable text."""
+
+Name = Annotated[str, Field(min_length=1, max_length=_LONGEST), ONE_LINE]
+"""One line of printable text, not empty."""

@@ -172,7 +172,7 @@ def node_row(i, j):
     row |= {"volume_cm3": volume / 1e3, "coated_area_m2": (2 * face + outline * height) / 1e6}
     row |= {"bar_diameter_mm": bar, "blank_length_mm": height + FACING}
     row |= {"removed_volume_cm3": (pi / 4 * bar**2 * (height + FACING) - volume) / 1e3}
-    row |= {"slots": count, "facets": 0, "holes": 1, "weld_length_mm": 2 * height * count}
+    row |= {"slots": count, "facets": 0, "holes": 1, "threads": 0, "weld_length_mm": 2 * height * count}
     angle = max(apart(node_description(*place), node_description(i, j)) for place in same(node_classes(), (i, j)))
     row |= {"max_deviation_mm": angle * RADIUS, "max_deviation_deg": degrees(angle)}
     files = f"nodes/{row['mark']}.dxf;{sheet('nodes', row['mark'])}"
@@ -219,7 +219,7 @@ def member_row(i, j, di, dj):
     angles, corner = member_angles(i, j, di, dj), len(end_profile(i, j, di, dj))
     top, bottom, face = outline[-1][0] - outline[0][0], outline[corner][0] - outline[corner - 1][0], area(outline)
     row = {"mark": mark("M", classes, way), "quantity": count}
-    row |= {"family": "generatrix" if di else "parallel", "section": SECTION, "grade": GRADE}
+    row |= {"family": "generatrix" if di else "parallel", "section": SECTION, "grade": GRADE, "holes": 0}
     row |= {"system_length_mm": edge(i, j, di, dj)[0], "top_length_mm": top, "bottom_length_mm": bottom}
     row["cut_length_mm"] = max(x for x, _ in outline) - min(x for x, _ in outline)
     ends = list(zip(("start", "end"), angles, strict=True))

@@ -1,10 +1,10 @@
 """The `[costs]` table: what things cost. Every field is a rate of the workbook, named `rate_<field>` there."""
 
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import Field
 
-from isomould.settings import Settings, Text
+from isomould.settings import Name, Settings
 from isomould.units import NonNegativeNumber
 
 Rate = NonNegativeNumber | None
@@ -18,7 +18,7 @@ def _rate(unit: str, description: str) -> Any:
 class CostSettings(Settings):
     """The `[costs]` table. Stock prices stand in `[stock]`; a rate that is not given is blank, and the cost says so."""
 
-    currency: Annotated[Text, Field(min_length=1)] = "EUR"
+    currency: Name = "EUR"
     steel: Rate = _rate("/kg", "Steel of members, where no bars are in stock")
     node_steel: Rate = _rate("/kg", "Round bar that nodes are turned from")
     base_steel: Rate = _rate("/kg", "Base plates and stems of supports")

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
-from isomould.settings import Settings, Text
+from isomould.settings import Name, Settings, Text
 from isomould.units import Coordinate, Number
 
 
@@ -29,7 +29,7 @@ class DatumSettings(Settings):
 class ProjectInfo(Settings):
     """The `[project]` table."""
 
-    name: Annotated[Text, Field(min_length=1)]
+    name: Name
     number: Text = ""
     client: Text = ""
     revision: Text = ""

@@ -1,10 +1,10 @@
 """The `[stock]` table: what lies in the rack, and how it may be cut."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from isomould.settings import Settings, Text
+from isomould.settings import Name, Settings
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
 
 Turning = Literal["none", "half", "quarter"]
@@ -12,7 +12,7 @@ Turning = Literal["none", "half", "quarter"]
 
 ROTATIONS_DEG: dict[Turning, tuple[int, ...]] = {"none": (0,), "half": (0, 180), "quarter": (0, 90, 180, 270)}
 
-StockName = Annotated[Text, Field(min_length=1)]
+StockName = Name
 """Quoted in formulas of the workbook, which hold 255 characters."""
 
 

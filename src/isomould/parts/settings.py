@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from isomould.parts.catalogue import AnySection, PlateSection, Section
 from isomould.parts.hardware import BoltSize
-from isomould.settings import Settings, Text
+from isomould.settings import ONE_LINE, Settings, Text
 from isomould.units import (
     Flag,
     NonNegativeLength,
@@ -23,7 +23,7 @@ class MemberSettings(Settings):
     generatrix: Section | None = None
     parallel: Section | None = None
     sill: Section | None = None
-    grade: Annotated[Text, Field(min_length=1, max_length=24)] = "S355"
+    grade: Annotated[str, Field(min_length=1, max_length=24), ONE_LINE] = "S355"
     density: PositiveNumber = 7850.0
     """kg/m³"""
     min_clear: PositiveLength = 50.0
@@ -63,7 +63,7 @@ class HardwareSettings(Settings):
     """The `[nodes.hardware]` table: the centre bolt of caps, or the bolts that hold hollow sections."""
 
     bolt: BoltSize = "M12"
-    grade: Annotated[Text, Field(min_length=1, max_length=12)] = "8.8"
+    grade: Annotated[str, Field(min_length=1, max_length=12), ONE_LINE] = "8.8"
 
 
 class CapSettings(Settings):

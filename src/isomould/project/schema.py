@@ -18,7 +18,7 @@ from isomould.form.settings import (
 )
 from isomould.nesting.settings import StockSettings
 from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings, SlottedSettings
-from isomould.settings import Settings, Text
+from isomould.settings import Name, Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 from isomould.writers.names import safe_name
 from isomould.writers.settings import DeliverSettings
@@ -91,7 +91,7 @@ class ShapeTable(Settings):
     The keys of its `rail` and `generatrix` take the place of those in the tables of the project.
     """
 
-    name: Annotated[Text, Field(min_length=1)]
+    name: Name
     rail: dict[str, Any] = Field(default_factory=dict[str, Any])
     generatrix: dict[str, Any] = Field(default_factory=dict[str, Any])
 
