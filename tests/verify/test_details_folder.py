@@ -1,7 +1,5 @@
 """Delivered folders of capped and faceted nodes, whole and spoilt: every check of details finds its fault."""
 
-import csv
-import io
 import json
 import re
 import shutil
@@ -10,6 +8,7 @@ from pathlib import Path
 
 import ezdxf
 import pytest
+from verify_museum import edit_table
 
 import isomould
 from isomould.verify.delivery import Delivery
@@ -46,17 +45,7 @@ def test_details_are_proved_with_something_to_prove(built, name, silent):
 
 
 def edit_row(name, change):
-    def seed(folder):
-        path = folder / "tables" / f"{name}.csv"
-        rows = list(csv.DictReader(io.StringIO(path.read_bytes().decode(), newline="")))
-        change(rows[0])
-        buffer = io.StringIO(newline="")
-        writer = csv.DictWriter(buffer, rows[0], lineterminator="\r\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        path.write_bytes(buffer.getvalue().encode())
-
-    return seed
+    return edit_table(name, lambda rows: change(rows[0]))
 
 
 def put(column, text):

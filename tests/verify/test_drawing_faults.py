@@ -10,6 +10,7 @@ import ezdxf
 import numpy as np
 import pytest
 from pypdf import PdfWriter
+from verify_museum import edit_table
 
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
@@ -26,19 +27,6 @@ def folder(built_folder, tmp_path):
 
 def rows_of(folder, name):
     return list(csv.DictReader(io.StringIO((folder / "tables" / f"{name}.csv").read_bytes().decode(), newline="")))
-
-
-def edit_table(name, change):
-    def seed(folder):
-        rows = rows_of(folder, name)
-        change(rows)
-        buffer = io.StringIO(newline="")
-        writer = csv.DictWriter(buffer, rows[0], lineterminator="\r\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        (folder / "tables" / f"{name}.csv").write_bytes(buffer.getvalue().encode())
-
-    return seed
 
 
 def edit_pdf(name, change):

@@ -1,7 +1,5 @@
 """One fault in a delivered folder at a time: found by a check that reads the content, not by its hash alone."""
 
-import csv
-import io
 import json
 import re
 import shutil
@@ -12,6 +10,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+from verify_museum import edit_table
 
 from isomould.verify import verify_folder
 from isomould.verify.delivery import Delivery
@@ -45,20 +44,6 @@ def edit_mesh(change):
             arrays = dict(file)
         change(arrays)
         np.savez(path, **arrays)
-
-    return seed
-
-
-def edit_table(name, change):
-    def seed(folder):
-        path = folder / "tables" / f"{name}.csv"
-        rows = list(csv.DictReader(io.StringIO(path.read_bytes().decode(), newline="")))
-        change(rows)
-        buffer = io.StringIO(newline="")
-        writer = csv.DictWriter(buffer, rows[0], lineterminator="\r\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        path.write_bytes(buffer.getvalue().encode())
 
     return seed
 

@@ -1,11 +1,11 @@
 """Packing lists of a delivered folder are proved; seeded faults are found."""
 
 import csv
-import io
 import shutil
 from pathlib import Path
 
 import pytest
+from verify_museum import edit_table
 
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
@@ -49,37 +49,26 @@ def test_what_a_site_reads(built_folder):
     assert sum(int(row["quantity"]) for row in crates) == sum(quantity.values())
 
 
-def edit(name, change):
-    def seed(folder):
-        path = folder / "tables" / f"{name}.csv"
-        lines = list(csv.DictReader(io.StringIO(path.read_bytes().decode(), newline="")))
-        change(lines)
-        buffer = io.StringIO(newline="")
-        writer = csv.DictWriter(buffer, lines[0], lineterminator="\r\n")
-        writer.writeheader()
-        writer.writerows(lines)
-        path.write_bytes(buffer.getvalue().encode())
-
-    return seed
-
-
 def cell(name, change, row=0):
     return lambda lines: lines[row].update({name: change(lines[row][name])})
 
 
 SEEDS = {
-    "another crate": ("V47", edit("crates", cell("crate", lambda _: "R-01"))),
-    "a line lost": ("V47", edit("crates", lambda lines: lines.pop())),
-    "a piece twice": ("V47", edit("crates", cell("locations", lambda text: text + ";" + text.split(";")[0]))),
-    "another mark": ("V47", edit("crates", cell("mark", lambda _: "N99"))),
-    "one more": ("V47b", edit("crates", cell("quantity", lambda text: str(int(text) + 1)))),
-    "too light": ("V47b", edit("crates", cell("mass_kg", lambda text: f"{float(text) - 0.001:.3f}"))),
-    "total": ("V47b", edit("crates", cell("total_mass_kg", lambda text: f"{float(text) + 0.001:.3f}"))),
-    "arms in another order": ("V47c", edit("packing", cell("members", lambda t: ";".join(t.split(";")[::-1]), 8))),
-    "a panel left out": ("V47c", edit("packing", cell("panels", lambda t: t.rpartition(";")[0], 8))),
-    "a node of another mark": ("V47c", edit("packing", cell("mark", lambda _: "N99"))),
-    "a node in another crate": ("V47c", edit("packing", cell("crate", lambda _: "R-07"))),
-    "a node left out": ("V47c", edit("packing", lambda lines: lines.pop())),
+    "another crate": ("V47", edit_table("crates", cell("crate", lambda _: "R-01"))),
+    "a line lost": ("V47", edit_table("crates", lambda lines: lines.pop())),
+    "a piece twice": ("V47", edit_table("crates", cell("locations", lambda text: text + ";" + text.split(";")[0]))),
+    "another mark": ("V47", edit_table("crates", cell("mark", lambda _: "N99"))),
+    "one more": ("V47b", edit_table("crates", cell("quantity", lambda text: str(int(text) + 1)))),
+    "too light": ("V47b", edit_table("crates", cell("mass_kg", lambda text: f"{float(text) - 0.001:.3f}"))),
+    "total": ("V47b", edit_table("crates", cell("total_mass_kg", lambda text: f"{float(text) + 0.001:.3f}"))),
+    "arms in another order": (
+        "V47c",
+        edit_table("packing", cell("members", lambda t: ";".join(t.split(";")[::-1]), 8)),
+    ),
+    "a panel left out": ("V47c", edit_table("packing", cell("panels", lambda t: t.rpartition(";")[0], 8))),
+    "a node of another mark": ("V47c", edit_table("packing", cell("mark", lambda _: "N99"))),
+    "a node in another crate": ("V47c", edit_table("packing", cell("crate", lambda _: "R-07"))),
+    "a node left out": ("V47c", edit_table("packing", lambda lines: lines.pop())),
 }
 
 

@@ -1,7 +1,6 @@
 """The setting out is proved in the datum of the site, near and far; seeded faults are found."""
 
 import csv
-import io
 import json
 import shutil
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+from verify_museum import edit_table
 
 import isomould
 from isomould.documents.info import DatumSettings
@@ -60,20 +60,6 @@ def test_a_quarter_turn_and_a_shift():
     assert moved == pytest.approx(np.array([[1000.0, 1.0, 2000.0], [998.0, 0.0, 2003.0]]), abs=1e-9)
 
 
-def edit_rows(change):
-    def seed(folder):
-        path = folder / "tables" / "setting_out.csv"
-        rows = list(csv.DictReader(io.StringIO(path.read_bytes().decode(), newline="")))
-        change(rows)
-        buffer = io.StringIO(newline="")
-        writer = csv.DictWriter(buffer, rows[0], lineterminator="\r\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        path.write_bytes(buffer.getvalue().encode())
-
-    return seed
-
-
 def edit_drawing(change):
     def seed(folder):
         document = ezdxf.readfile(folder / "setting-out.dxf")
@@ -110,10 +96,10 @@ def move_label(space):
 SEEDS = {
     "datum turned": ("V46", turn_datum),
     "drawing in another datum": ("V46c", turn_datum),
-    "top moved 0.002 mm": ("V46", edit_rows(move)),
-    "marks swapped": ("V46b", edit_rows(swap)),
-    "row doubled": ("V46b", edit_rows(lambda rows: rows.append(rows[0]))),
-    "row lost": ("V46b", edit_rows(lambda rows: rows.pop())),
+    "top moved 0.002 mm": ("V46", edit_table("setting_out", move)),
+    "marks swapped": ("V46b", edit_table("setting_out", swap)),
+    "row doubled": ("V46b", edit_table("setting_out", lambda rows: rows.append(rows[0]))),
+    "row lost": ("V46b", edit_table("setting_out", lambda rows: rows.pop())),
     "line moved": ("V46c", edit_drawing(move_line)),
     "line lost": ("V46c", edit_drawing(lambda space: space.delete_entity(space.query("LINE")[0]))),
     "label moved": ("V46c", edit_drawing(move_label)),
