@@ -3,21 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
 
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
+from isomould.delivery.pictures import View, design_picture
 from isomould.design import Design, make_design, requests_of
-from isomould.documents.graph import curvature_picture
 from isomould.documents.overview import Fact, kit_facts
 from isomould.documents.picture import Picture
 from isomould.documents.table import Table
-from isomould.documents.views import SpaceView, developed_picture, space_picture
 from isomould.errors import Note, Refused
 from isomould.family import kit_table, make_designs
-from isomould.form.assemble import RailInSpace
-from isomould.form.spatial import SpatialPolygon
 from isomould.form.survey import Division, survey
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.instance import read_instance
@@ -39,8 +35,6 @@ from isomould.writers.disk import replace_file
 from isomould.writers.names import check_file_name, safe_name
 from isomould.writers.svg import svg_text
 from isomould.writers.xlsx import Words, workbook_bytes
-
-View = SpaceView | Literal["developed", "curvature"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -253,22 +247,9 @@ def draw(
     if shape not in designs:
         limit = f"one of {', '.join(designs)}"
         raise Refused("E-DRAW-SHAPE", "--shape", repr(shape), limit, "Name a shape of the project.")
-    picture = _picture(designs[shape], view)
+    picture = design_picture(designs[shape], view)
     replace_file(Path(out), svg_text(picture).encode())
     return picture
-
-
-def _picture(design: Design, view: View) -> Picture:
-    name = design.project.project.name
-    if view == "curvature":
-        return _curvature(design, name)
-    return developed_picture(design.kit, name) if view == "developed" else space_picture(design.kit, name, view)
-
-
-def _curvature(design: Design, name: str) -> Picture:
-    if isinstance(design.rail, RailInSpace) or isinstance(design.form.rail, SpatialPolygon):
-        raise Refused("E-DRAW-VIEW", "--view", "curvature of a rail in space", "a planar rail", "Choose another view.")
-    return curvature_picture(design.rail.curve, design.form.rail, name)
 
 
 def frames(built: Built) -> dict[str, pd.DataFrame]:

@@ -10,6 +10,7 @@ from isomould.cutting import nest_kit
 from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
 from isomould.delivery.model import write_record
+from isomould.delivery.report import write_page
 from isomould.delivery.schedules import write_schedules
 from isomould.design import Design, kit_settings
 from isomould.documents.table import Table
@@ -23,15 +24,17 @@ from isomould.parts.solid import make_solids
 from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN
 from isomould.revision import keep_design_marks, read_former
-from isomould.verify import Certificate, verify_folder
+from isomould.verify import Certificate, verify_folder, verify_page
 from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
-from isomould.writers.manifest import MANIFEST, Scope, write_manifest
+from isomould.writers.manifest import MANIFEST, Scope, listed_files, write_manifest
 from isomould.writers.parquet import require_parquet
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
+
+CERTIFICATE, PAGE = "certificate.json", "report.html"
 
 _LIBRARIES = (
     "numpy",
@@ -44,6 +47,7 @@ _LIBRARIES = (
     "pydantic",
     "trimesh",
     "reportlab",
+    "plotly",
     "pypdf",
 )
 
@@ -89,11 +93,11 @@ def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         for name in list(designs)[1:]:
             shape = _compute(designs[name], None, loaded.logo, run, spread)
             write_delivery(folder / "shapes" / name, shape, spread)
-            _certify(folder / "shapes" / name, loaded, run, spread)
+            _certify(folder / "shapes" / name, shape, loaded, run, spread)
         delivery = _compute(designs[MAIN], kit, loaded.logo, run, spread)
         run.report("schedules, drawings, models")
         write_delivery(folder, delivery, spread)
-        certificate = _certify(folder, loaded, run, spread)
+        certificate = _certify(folder, delivery, loaded, run, spread)
     return Built(target, delivery.design, delivery.tables, certificate)
 
 
@@ -111,7 +115,7 @@ def schedule_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:
         run.report("schedules")
         write_record(folder / "model", delivery)
         write_schedules(folder, delivery)
-        certificate = _certify(folder, loaded, run, spread, "schedules")
+        certificate = _certify(folder, delivery, loaded, run, spread)
     return Built(target, delivery.design, delivery.tables, certificate)
 
 
@@ -144,12 +148,36 @@ def _compute(design: Design, kit: Table | None, logo: Logo | None, run: Run, spr
     return Delivery(design, solids, bodies, cutting, former, kit, logo)
 
 
-def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scope: Scope = "delivery") -> Certificate:
-    """Prove the candidate from its files, add the certificate, close the manifest."""
+def _certify(folder: Path, delivery: Delivery, loaded: LoadedProject, run: Run, spread: Spread) -> Certificate:
+    """Prove the candidate from its files, add certificate and page, close the manifest."""
     run.report("certificate")
+    scope: Scope = "delivery" if delivery.filed else "schedules"
     inputs, libraries = read_inputs(loaded) | read_previous(run.previous), versions()
     write_manifest(folder, inputs, libraries, scope)
-    certificate = verify_folder(folder, final=False, spread=spread)
+    certificate = _passed(verify_folder(folder, final=False, spread=spread))
+    _rewrite(folder / CERTIFICATE, certificate)
+    if delivery.filed:
+        write_page(folder / PAGE, delivery, certificate, listed_files(folder))
+        certificate = _passed(verify_page(folder, certificate))
+        _rewrite(folder / CERTIFICATE, certificate)
+    (folder / MANIFEST).unlink()
+    write_manifest(folder, inputs, libraries, scope)
+    return certificate
+
+
+def _rewrite(path: Path, certificate: Certificate) -> None:
+    path.unlink(missing_ok=True)
+    write_bytes(path, certificate.to_json().encode())
+
+
+def _passed(certificate: Certificate) -> Certificate:
+    """Hand on a certificate without failures.
+
+    Raises
+    ------
+    CertificateFailed
+        Naming every failure.
+    """
     if not certificate.passed:
         listed = "\n".join(
             f"  {c.id} {c.what}: {c.worst} {c.unit} at {c.where} {c.reason}" for c in certificate.failures
@@ -157,9 +185,6 @@ def _certify(folder: Path, loaded: LoadedProject, run: Run, spread: Spread, scop
         failed = f"the written files failed {len(certificate.failures)} checks; nothing was published."
         message = f"E-CERTIFICATE: {failed} Please report it with the project file.\n{listed}"
         raise CertificateFailed(message)
-    write_bytes(folder / "certificate.json", certificate.to_json().encode())
-    (folder / "manifest.json").unlink()
-    write_manifest(folder, inputs, libraries, scope)
     return certificate
 
 

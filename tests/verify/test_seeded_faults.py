@@ -240,6 +240,23 @@ def move_solid(folder):
             package.writestr(part, content)
 
 
+def edit_page(old, new):
+    def seed(folder):
+        path = folder / "report.html"
+        text = path.read_text("utf-8")
+        assert old in text
+        path.write_text(text.replace(old, new, 1), "utf-8")
+
+    return seed
+
+
+def change_certificate(folder):
+    path = folder / "certificate.json"
+    certificate = json.loads(path.read_text("utf-8"))
+    certificate["checks"][0]["status"] = "fail"
+    path.write_text(json.dumps(certificate), "utf-8")
+
+
 SEEDS: dict[str, tuple[str, Seed]] = {
     "vertex moved 0.01 mm": ("V15", edit_mesh(move_vertex)),
     "vertex moved: planes": ("V1", edit_mesh(move_vertex)),
@@ -282,6 +299,13 @@ SEEDS: dict[str, tuple[str, Seed]] = {
     "part file lost": ("V40", remove("panels/*.dxf")),
     "solid lost": ("V20", remove("nodes/*.3mf")),
     "solid changed": ("V23b", move_solid),
+    "page: another key figure": ("V49", edit_page('<td class="number">', '<td class="number">1')),
+    "page: failed check shown as passed": ("V49", change_certificate),
+    "page: another hash": ("V49", edit_page('<td class="hash">', '<td class="hash">0')),
+    "page: a file left out": ("V49", edit_page('<td><a href', '<th><a href')),
+    "page: loads from elsewhere": ("V49", edit_page("</head>", '<script src="https://a.b/c.js"></script></head>')),
+    "page lost": ("V49", remove("report.html")),
+    "page truncated": ("V49", truncate("report.html")),
 }  # fmt: skip
 
 

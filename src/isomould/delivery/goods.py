@@ -9,6 +9,7 @@ from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
 from isomould.documents.node_tables import fitting_table, hardware_table, limit_table
+from isomould.documents.overview import kit_facts, layout_facts
 from isomould.documents.packing import packing_tables
 from isomould.documents.revision import Former, revision_table
 from isomould.documents.schedules import part_tables
@@ -17,6 +18,7 @@ from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table, without_files
 from isomould.documents.title_block import Logo
+from isomould.documents.totals import make_summary
 from isomould.parts.details.fittings import Fitting, make_fittings
 from isomould.parts.plates import Shape
 from isomould.parts.solid import Solid
@@ -69,6 +71,12 @@ class Delivery:
             price_families(self.compared, self.design.project, self.pricing)[1:] if self.pricing.repetition else ()
         )
         return (self.cost.rates, self.cost.lines, *self.schedules, *families)
+
+    @cached_property
+    def summary(self) -> Table:
+        """Key figures and totals."""
+        facts = (*kit_facts(self.design.kit), *layout_facts(self.cutting.sheets, self.cutting.bars))
+        return make_summary(facts, self.tables)
 
     @cached_property
     def setting_out(self) -> SettingOut:

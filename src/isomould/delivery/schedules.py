@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from isomould.delivery.goods import Delivery
-from isomould.documents.overview import build_checks, kit_facts, layout_facts
-from isomould.documents.totals import make_summary
+from isomould.documents.overview import build_checks
 from isomould.writers.csv import write_csv
 from isomould.writers.parquet import write_parquet
 from isomould.writers.xlsx import Words, write_workbook
@@ -17,11 +16,9 @@ def write_schedules(folder: Path, delivery: Delivery) -> None:
         write_csv(folder / "tables" / f"{table.name}.csv", table)
         if design.project.deliver.parquet:
             write_parquet(folder / "tables" / f"{table.name}.parquet", table)
-    facts = (*kit_facts(design.kit), *layout_facts(cutting.sheets, cutting.bars))
-    summary = make_summary(facts, tables)
     checks = build_checks(design.kit, delivery.solids, cutting.sheets)
     words = Words(design.project.project, design.notes, delivery.cost.results, delivery.logo)
-    write_workbook(folder / "schedules.xlsx", (summary, *tables, checks), words)
+    write_workbook(folder / "schedules.xlsx", (delivery.summary, *tables, checks), words)
 
 
 def write_bars(path: Path, delivery: Delivery) -> None:

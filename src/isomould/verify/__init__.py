@@ -1,6 +1,6 @@
 """The certificate: proves a delivered folder from its files, with readers and formulas of its own."""
 
 from isomould.verify.certificate import Certificate, Check
-from isomould.verify.folder import verify_folder
+from isomould.verify.folder import verify_folder, verify_page
 
-__all__ = ["Certificate", "Check", "verify_folder"]
+__all__ = ["Certificate", "Check", "verify_folder", "verify_page"]

@@ -15,6 +15,7 @@ from isomould.verify.read.glb import Model, read_glb
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.mesh import Mesh, edge_vectors, read_mesh
 from isomould.verify.read.nc1 import NcFile, read_nc1
+from isomould.verify.read.page import Page, read_page
 from isomould.verify.read.pdf import Book, read_pdf
 from isomould.verify.read.solid import Solid, read_3mf
 from isomould.verify.read.tables import Table, pairs, read_table
@@ -53,6 +54,16 @@ class Delivery:
     def model(self) -> Model:
         """The placed parts of `model/model.glb`."""
         return read_glb(self.folder / "model" / "model.glb")
+
+    @cached_property
+    def certificate(self) -> Json:
+        """The content of `certificate.json`."""
+        return read_json(self.folder / "certificate.json")
+
+    @cached_property
+    def page(self) -> Page:
+        """The tables, references and title of `report.html`."""
+        return read_page(self.folder / "report.html")
 
     @cached_property
     def manifest(self) -> Json:

@@ -6,7 +6,7 @@ from pathlib import Path
 from types import ModuleType
 
 from isomould.errors import OutputFault
-from isomould.verify.certificate import Certificate
+from isomould.verify.certificate import Certificate, Check
 from isomould.verify.checks import (
     bars,
     bases,
@@ -24,6 +24,7 @@ from isomould.verify.checks import (
     nesting,
     nodes,
     packing,
+    page,
     panels,
     parquet,
     polygons,
@@ -67,6 +68,7 @@ _GROUPS = (
     totals,
     shapes,
     sheets,
+    page,
     manifest,
 )
 
@@ -75,7 +77,7 @@ _SCHEDULED = (panels, nodes, polygons, topology, workbook, parquet, totals, pack
 """What can be proved of schedules alone."""
 
 
-def _order(rule: Rule) -> tuple[int, str]:
+def _order(rule: Rule | Check) -> tuple[int, str]:
     return int(re.sub(r"\D", "", rule.id)), rule.id
 
 
@@ -96,6 +98,9 @@ def _each_shape(delivery: Delivery) -> Measured:
 RULES = _rules(_GROUPS, Rule("V60", "the other shapes pass their own checks", 0, "checks", _each_shape))
 """Every check there is, in the order of the certificate."""
 
+WITHOUT_PAGE = tuple(rule for rule in RULES if rule not in page.RULES)
+"""Those of a candidate: its page shows what they found."""
+
 SCHEDULE_RULES = _rules(_SCHEDULED, *setting_out.TABLE_RULES)
 """The checks of a folder that holds schedules only."""
 
@@ -108,7 +113,7 @@ def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_o
     folder
         A delivered folder, or the candidate of one.
     final
-        False for a candidate: its manifest is provisional and certificate.json is not there yet.
+        False for a candidate: its manifest is provisional, certificate.json and report.html are not there yet.
     spread
         Reads the drawings side by side.
 
@@ -121,5 +126,12 @@ def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_o
         message = f"{folder}: no such folder. Give the folder that a build delivered."
         raise OutputFault(message)
     delivery = Delivery(folder, final, spread)
-    rules = SCHEDULE_RULES if delivery.scope == "schedules" else RULES
+    rules = SCHEDULE_RULES if delivery.scope == "schedules" else RULES if final else WITHOUT_PAGE
     return Certificate(tuple(judge(rule, delivery) for rule in rules))
+
+
+def verify_page(folder: Path, certificate: Certificate) -> Certificate:
+    """Prove the page of a candidate, which shows the certificate of all else, and add that to the certificate."""
+    delivery = Delivery(folder, final=False)
+    checks = (*certificate.checks, *(judge(rule, delivery) for rule in page.RULES))
+    return Certificate(tuple(sorted(checks, key=_order)))

@@ -84,6 +84,11 @@ def write_manifest(
     write_bytes(folder / MANIFEST, f"{text}\n".encode())
 
 
+def listed_files(folder: Path) -> list[FileEntry]:
+    """Give the files that the manifest of a folder of ours lists."""
+    return _SCHEMA.validate_json((folder / MANIFEST).read_bytes()).files
+
+
 def folder_faults(folder: Path) -> list[str]:
     """Say what in a folder is not as its manifest says: nothing, if it is ours and untouched.
 
