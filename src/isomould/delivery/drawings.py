@@ -10,12 +10,14 @@ from isomould.documents.shop.font import drawable
 from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.node_sheet import NodeDrawing, node_sheet
 from isomould.documents.shop.page import Book
-from isomould.documents.shop.panel_sheet import PanelDrawing, panel_sheet
+from isomould.documents.shop.panel_sheet import panel_sheet
+from isomould.documents.shop.panel_view import PanelDrawing
 from isomould.documents.shop.rows import length_text, schedule_rows
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.documents.table import Table
 from isomould.documents.title_block import heading
 from isomould.parts.bodies import section_outline
+from isomould.parts.details.bolting import Bolting
 from isomould.parts.details.caps import Cap
 from isomould.parts.details.faceted import FacetedJoint
 from isomould.parts.details.joint import Joint
@@ -109,7 +111,13 @@ def _grooves(cap: Cap | None) -> list[str]:
 def _threads(joint: FacetedJoint) -> list[str]:
     """Say what is tapped into the facets."""
     each = dict.fromkeys(joint.bolting)
-    return [f"{b.bolt.size} in facets of {b.section.name}, {length_text(b.hole_depth)} deep" for b in each]
+    return [line for bolting in each for line in _thread(bolting)]
+
+
+def _thread(bolting: Bolting) -> tuple[str, str]:
+    size, depth = bolting.bolt.size, length_text(bolting.hole_depth)
+    levels = " and ".join(map(length_text, bolting.levels))
+    return f"{size} in facets of {bolting.section.name}, {depth} deep,", f"at {levels} from the member's axis"
 
 
 def _members(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:

@@ -3,7 +3,7 @@
 A side has its own coordinates on paper: u along what is measured, v away from the view.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -86,36 +86,44 @@ def below(origin: Floats) -> Side:
     return Side(origin, np.array([1.0, 0.0]), np.array([0.0, -1.0]))
 
 
-def stack(side: Side, spans: Iterable[Span], first: float = FIRST) -> list[Item]:
-    """Draw spans in as few rows as keep them apart, the shortest nearest to the view."""
-    rows = _rows(spans)
+def stack(side: Side, spans: Iterable[Span], first: float = FIRST, through: Sequence[float] = ()) -> list[Item]:
+    """Draw spans in as few rows as keep them apart, the shortest nearest to the view.
+
+    Extension lines of other dimensions pass `through` all rows, at these u; no text stands on them.
+    """
+    rows = _rows(spans, through)
     return [
         item for k, row in enumerate(rows) for placed in row for item in _dimension(side, placed, first + k * PITCH)
     ]
 
 
-def stack_height(spans: Iterable[Span], first: float = FIRST) -> float:
+def ways_to_write(side: Side, span: Span, rows: Iterable[float]) -> Iterator[list[Item]]:
+    """Give the ways to draw one span in rows at some distances from the side."""
+    return (_dimension(side, placed, v) for v in rows for placed in _ways(span))
+
+
+def stack_height(spans: Iterable[Span], first: float = FIRST, through: Sequence[float] = ()) -> float:
     """Give how far a stack reaches from its side, mm."""
-    return first + (len(_rows(spans)) - 1) * PITCH + _CLEAR + SMALL
+    return first + (len(_rows(spans, through)) - 1) * PITCH + _CLEAR + SMALL
 
 
-def _rows(spans: Iterable[Span]) -> list[list[_Placed]]:
+def _rows(spans: Iterable[Span], through: Sequence[float]) -> list[list[_Placed]]:
     waiting = sorted(spans, key=lambda span: (round(span.length, 6), span.start))
     rows = list[list[_Placed]]()
     while waiting:
-        row = _row(waiting) or [_forced(waiting[0], waiting)]
+        row = _row(waiting, through) or [_forced(waiting[0], waiting, through)]
         taken = {id(placed.span) for placed in row}
         waiting = [span for span in waiting if id(span) not in taken]
         rows.append(row)
     return rows
 
 
-def _row(waiting: Sequence[Span]) -> list[_Placed]:
+def _row(waiting: Sequence[Span], through: Sequence[float]) -> list[_Placed]:
     """Fill one row with what fits beside each other; extension lines of all that waits pass through it."""
     row = list[_Placed]()
     for span in waiting:
         lines = [u for other in waiting if other is not span for u in (other.start, other.end)]
-        fitting = (placed for placed in _ways(span) if _fits(placed, row, lines))
+        fitting = (placed for placed in _ways(span) if _fits(placed, row, [*lines, *through]))
         row += [placed for placed in [next(fitting, None)] if placed]
     return row
 
@@ -140,9 +148,9 @@ def _fits(placed: _Placed, row: Sequence[_Placed], lines: Sequence[float]) -> bo
     return not crossed and all(placed.low >= p.high - 1e-6 or placed.high <= p.low + 1e-6 for p in row)
 
 
-def _forced(span: Span, waiting: Sequence[Span]) -> _Placed:
+def _forced(span: Span, waiting: Sequence[Span], through: Sequence[float]) -> _Placed:
     """Write a span to the right of all extension lines, where nothing can be in the way."""
-    furthest = max(max(other.start, other.end) for other in waiting)
+    furthest = max(*through, *(max(other.start, other.end) for other in waiting), span.end)
     middle = furthest + 2 * _ARROW + _GAP + text_width(span.text, SMALL) / 2
     return _Placed(span, middle, span.start, np.inf)
 

@@ -9,7 +9,21 @@ import shapely
 from isomould.arrays import Floats
 from isomould.documents.shop.dimensions import Side, Span, above, below, left_of, running, stack, stack_height
 from isomould.documents.shop.grid import grid, grid_size
-from isomould.documents.shop.page import NORMAL, SMALL, SMALLEST, Arc, Item, Line, Page, Paper, Text, paper_size, point
+from isomould.documents.shop.page import (
+    MARGIN,
+    NORMAL,
+    SMALL,
+    SMALLEST,
+    Arc,
+    Item,
+    Line,
+    Page,
+    Paper,
+    Text,
+    paper_size,
+    point,
+)
+from isomould.documents.shop.placing import place_all
 from isomould.documents.shop.rows import Row, data_rows, length_text
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import View, choose_paper, fit_scale, scale_text
@@ -28,6 +42,8 @@ _LEVEL = 0.0035
 _MOST_HOLES: dict[Paper, int] = {"A4": 7, "A3": 20}
 _HOLES_AT: dict[Paper, tuple[float, float]] = {"A4": (-3.0, -4.0), "A3": (190.0, 70.0)}
 """Holes in one table, and where its upper left corner stands: from the lower left of the drawing's room, mm."""
+_LYING = "Outside up, start on the left"
+_HOLES_FROM = "x and y of holes from the work point at the start"
 _HOLE_HEADING = ("Hole", "Face", "x", "y", "Ø", "Slot", "Thread")
 
 
@@ -59,8 +75,15 @@ def member_sheet(stationery: Stationery, table: Table, member: MemberDrawing, sh
         *_section(member, ends, np.array([left + 167, low])),
         *_holes(member.shape.holes, paper, (left, bottom)),
     ]
+    notes = [_LYING, _HOLES_FROM] if member.shape.holes else [_LYING]
+    items += place_all([_note_places(note, left, bottom, top) for note in notes], items)
     scales = f"{scale_text(scale)} ({scale_text(ends)})"
     return finish(stationery, Subject("Member", member.row["mark"], scales, sheet, sheets), size, items)
+
+
+def _note_places(note: str, left: float, bottom: float, top: float) -> list[Text]:
+    """Places for a note on how the member lies: beside the title block, else in a corner of the room."""
+    return [Text(note, (left, y), SMALL) for y in (MARGIN + 8.5, MARGIN + 4.0, bottom, top - SMALL)]
 
 
 def _end_room(member: MemberDrawing, paper: Paper) -> tuple[float, float]:
@@ -82,19 +105,31 @@ def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -
     """Draw the member with its start at the left, outside up, lengths and set-backs; `head` is its upper middle."""
     outline, length = member.shape.outline, member.shape.system_length
     view = View(scale, np.array([length / 2, outline[:, 1].max()]), np.array([head[0], 0.0]))
-    over, under = _spans_above(member, view), _spans_below(member, view)
+    over, under, holes = _spans_above(member, view), _spans_below(member, view), _hole_marks(member.shape, view)
     view = View(scale, view.centre, np.array([head[0], head[1] - stack_height(over) - 3]))
     low, high = (view.place(np.array([0.0, end]))[1] for end in (outline[:, 1].min(), outline[:, 1].max()))
-    ends = view.place(np.array([[0.0, 0.0], [length, 0.0]]))
+    ends, through = view.place(np.array([[0.0, 0.0], [length, 0.0]])), [u for u, _ in holes]
+    foot, depth = below(np.array([0.0, low])), stack_height(under, through=through)
     return [
         view.outline(outline),
         *_drilled(view, member.shape.holes),
         Line("centre", ends + np.array([[-4.0, 0.0], [4.0, 0.0]])),
         *(Arc("thin", point(end), 0.7) for end in ends),
         *stack(above(np.array([0.0, high])), over),
-        *stack(below(np.array([0.0, low])), under),
-        *_hole_places(member.shape, view, float(low) - stack_height(under)),
+        *stack(foot, under, through=through),
+        *running(foot, holes, first=depth + 6.0),
     ]
+
+
+def _hole_marks(shape: MemberShape, view: View) -> list[tuple[float, str]]:
+    """Give the running dimensions of the holes along the part, from its start."""
+    start = float(shape.outline[:, 0].min())
+    places = np.unique([start, *(hole.x for hole in shape.holes)]).tolist() if shape.holes else []
+    return [(_along(view, x), length_text(x - start)) for x in places]
+
+
+def _along(view: View, x: float) -> float:
+    return (x - float(view.centre[0])) / view.scale + float(view.at[0])
 
 
 def _level(member: MemberDrawing, side: int, length: str) -> Floats:
@@ -130,7 +165,7 @@ def _spans_below(member: MemberDrawing, view: View) -> list[Span]:
 
 
 def _span(view: View, x: Floats, text: str, feet: tuple[float, float] = (0.0, 0.0)) -> Span:
-    start, end = ((x - view.centre[0]) / view.scale + view.at[0]).tolist()
+    start, end = (_along(view, each) for each in x.tolist())
     return Span(start, end, text, feet)
 
 
@@ -140,8 +175,9 @@ def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item
     tip, low = float((outline[:, 0] * way).min()) * way, float(outline[:, 1].min())
     view = View(scale, np.array([tip, low]), at)
     reach = min(_END_SHARE * _depth(member), 0.45 * member.shape.cut_length)
-    near = outline[(outline[:, 0] - tip) * way < reach]
-    x, y = np.unique((near[:, 0] - tip) * way), np.unique(near[:, 1] - low)
+    holes = [hole for hole in member.shape.holes if hole.face == "front" and (hole.x - tip) * way < reach]
+    near = np.array([*outline[(outline[:, 0] - tip) * way < reach], *((hole.x, hole.y) for hole in holes)])
+    x, y = (np.unique(places.round(6)) for places in ((near[:, 0] - tip) * way, near[:, 1] - low))
     side = Side(at, np.array([0.0, 1.0]), np.array([-float(way), 0.0]))
     foot = Side(at, np.array([float(way), 0.0]), np.array([0.0, -1.0]))
     word = "start" if way > 0 else "end"
@@ -151,7 +187,7 @@ def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item
     head = np.array([at[0] + way * reach / 2 / scale, max(at[1] + _depth(member) / scale + 8, top)])
     return [
         *_clipped(view, outline, tip + way * reach),
-        *_drilled(view, [hole for hole in member.shape.holes if (hole.x - tip) * way < reach]),
+        *_drilled(view, holes),
         *heights,
         *running(foot, [(value / scale, length_text(value)) for value in x.tolist()], least=_CORNER),
         Text(caption, point(head), NORMAL, "middle"),
@@ -201,16 +237,6 @@ def _hole(view: View, hole: Hole) -> list[Item]:
         *(Line("outline", np.array([centre - half + s * up, centre + half + s * up])) for s in (-1, 1)),
         *axes,
     ]
-
-
-def _hole_places(shape: MemberShape, view: View, low: float) -> list[Item]:
-    """Dimension the holes from the start of the part, running along it."""
-    start = float(shape.outline[:, 0].min())
-    places = np.unique([hole.x for hole in shape.holes]).tolist()
-    if not places:
-        return []
-    side = below(np.array([float(view.place(np.array([start, 0.0]))[0]), low]))
-    return running(side, [((x - start) / view.scale, length_text(x - start)) for x in places], first=6.0)
 
 
 def _holes(holes: Sequence[Hole], lying: Paper, corner: tuple[float, float]) -> list[Item]:

@@ -8,7 +8,7 @@ import shapely
 
 from isomould.arrays import Floats
 from isomould.documents.shop.base_view import base_views
-from isomould.documents.shop.dimensions import FIRST, Span, above, left_of, stack
+from isomould.documents.shop.dimensions import Span, above, left_of, stack
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import (
     NORMAL,
@@ -19,14 +19,15 @@ from isomould.documents.shop.page import (
     Line,
     Page,
     Text,
+    moved,
     paper_size,
     point,
     reading,
 )
-from isomould.documents.shop.placing import place_all
+from isomould.documents.shop.placing import bounds, place_all
 from isomould.documents.shop.rows import Row, data_rows
-from isomould.documents.shop.title_block import Stationery, Subject, finish, room
-from isomould.documents.shop.view import View, fit_scale, scale_text
+from isomould.documents.shop.title_block import Stationery, Subject, finish, room, wrap
+from isomould.documents.shop.view import SCALES, View, scale_text
 from isomould.documents.table import Table
 from isomould.parts.sections import Polygons, SolidViews
 from isomould.parts.supports import Base
@@ -34,6 +35,8 @@ from isomould.parts.supports import Base
 _STUB, _BALLOON = 15.0, 3.0
 """Length of an arm's line beyond the solid, and radius of the circle around its number, mm on paper."""
 _HATCH = 2.5
+_INSIDE, _APART = 3.0, 7.0
+"""How far views may reach to the left into the margin of the frame, and what keeps plan and section apart, mm."""
 _ARM_HEADING = ("Arm", "Azimuth °", "Elev. °", "Family", "Section", "Set-back")
 
 
@@ -56,16 +59,16 @@ def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: i
     data = data_rows(table, node.row)
     tables = [("Node", node.row["mark"]), *data], arms
     column = right - max(grid_size(tables[0])[0], grid_size(arms, SMALLEST)[0])
-    scale = _scale(node.views, (column - left - 2, top - bottom))
-    drawn = _views(node, scale, (left + column - 2) / 2, (bottom, top))
+    scale, drawn = _fitted(node, np.array([[left - _INSIDE, bottom], [column - 2, top]]))
     under = top - grid_size(tables[0])[1] - 6
     noted = under - grid_size(arms, SMALLEST)[1] - 8
-    free = (column, bottom, right, noted - 4.5 * len(node.notes) - 2)
+    notes = [line for note in node.notes for line in wrap(note, SMALL, right - column)]
+    free = (column, bottom, right, noted - 4.5 * len(notes) - 2)
     items = [
         *drawn,
         *grid(tables[0], (column, top)),
         *grid(arms, (column, under), SMALLEST),
-        *_notes(node.notes, column, noted),
+        *_notes(notes, column, noted),
         *(base_views(node.base, free) if node.base else []),
     ]
     return finish(stationery, Subject("Node", node.row["mark"], scale_text(scale), sheet, sheets), size, items)
@@ -83,25 +86,27 @@ def _notes(notes: Sequence[str], left: float, top: float) -> list[Text]:
     return [Text(note, (left, top - 4.5 * k), SMALL) for k, note in enumerate(notes)]
 
 
-def _scale(views: SolidViews, space: tuple[float, float]) -> float:
-    """Scale at which section and plan stand above each other, with their dimensions, captions and arms."""
-    arms = 2 * (_STUB + 2 * _BALLOON + 1)
-    plan, upright = (np.ptp(np.concatenate(view), axis=0) for view in (views.plan, views.elevation))
-    width, height = max(plan[0], upright[0]), plan[1] + upright[1]
-    return fit_scale((float(width), float(height)), (space[0] - arms, space[1] - arms - 2 * FIRST - 25))
+def _fitted(node: NodeDrawing, box: Floats) -> tuple[float, list[Item]]:
+    """Draw section and plan at the largest scale at which both fit a box (2, 2) above each other, in its middle."""
+    space = np.ptp(box, axis=0)
+    drawn = ((scale, _views(node, scale)) for scale in SCALES)
+    fits = (way for way in drawn if way[0] == SCALES[-1] or (np.ptp(bounds(way[1]), axis=0) <= space).all())
+    scale, items = next(fits)
+    (left, _), (right, top) = bounds(items)
+    return scale, moved(items, np.array([(box[:, 0].sum() - left - right) / 2, box[1, 1] - top]))
 
 
-def _views(node: NodeDrawing, scale: float, x: float, span: tuple[float, float]) -> list[Item]:
-    views, (bottom, top) = node.views, span
-    plan, upright = np.concatenate(views.plan), np.concatenate(views.elevation)
-    arms = _STUB + 2 * _BALLOON
-    low = View(scale, np.zeros(2), np.array([x, bottom + arms - plan[:, 1].min() / scale + 8]))
-    high = View(scale, np.zeros(2), np.array([x, top - FIRST - 14 - upright[:, 1].max() / scale]))
-    captions = [
-        Text("Section A-A", (x, top - NORMAL - 1), NORMAL, "middle"),
-        Text("Plan, seen from outside", (x, bottom), NORMAL, "middle"),
-    ]
-    return [*captions, *_section(node, high), *_plan(node, low)]
+def _views(node: NodeDrawing, scale: float) -> list[Item]:
+    """Draw the section and under it the plan, both about the axis."""
+    section = _captioned("Section A-A", _section(node, View(scale, np.zeros(2), np.zeros(2))))
+    plan = _captioned("Plan, seen from outside", _plan(node, View(scale, np.zeros(2), np.zeros(2))))
+    under = bounds(section)[0, 1] - _APART - bounds(plan)[1, 1]
+    return [*section, *moved(plan, np.array([0.0, under]))]
+
+
+def _captioned(words: str, items: list[Item]) -> list[Item]:
+    """Write a caption over a view."""
+    return [*items, Text(words, (0.0, float(bounds(items)[1, 1]) + 3.0), NORMAL, "middle")]
 
 
 def _section(node: NodeDrawing, view: View) -> list[Item]:

@@ -1,6 +1,7 @@
 """Neutral pages: lines by pen, arcs and texts in paper millimetres, the origin at the lower left of the sheet."""
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -99,6 +100,24 @@ def paper_size(paper: Paper, *, lying: bool) -> tuple[float, float]:
 def point(xy: Floats) -> tuple[float, float]:
     """Give an array (2,) as a pair of floats."""
     return float(xy[0]), float(xy[1])
+
+
+def unit(way: Floats) -> Floats:
+    """Give a direction (2,) a length of 1."""
+    return way / np.hypot(*way)
+
+
+def moved(items: Iterable[Item], way: Floats) -> list[Item]:
+    """Move items by (2,) mm."""
+    return [_moved(item, way) for item in items]
+
+
+def _moved(item: Item, way: Floats) -> Item:
+    if isinstance(item, Line):
+        return replace(item, points=item.points + way)
+    if isinstance(item, Arc):
+        return replace(item, centre=point(np.array(item.centre) + way))
+    return replace(item, at=point(np.array(item.at) + way))
 
 
 _FLIP = np.radians(105.0)

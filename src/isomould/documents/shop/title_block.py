@@ -143,13 +143,13 @@ def _lines(text: str, cell: Cell, x: float, y: float) -> list[Text]:
     """Write a text as high as its cell asks, lower or in several lines where it is longer."""
     room_across, room_up = cell.size[0] - 2 * _SIDE, cell.size[1] - _LABEL
     heights = [height for height in _HEIGHTS if height <= cell.height]
-    ways = ((height, _wrap(text, height, room_across)) for height in [*heights, *(SMALLEST / k for k in range(2, 20))])
+    ways = ((height, wrap(text, height, room_across)) for height in [*heights, *(SMALLEST / k for k in range(2, 20))])
     height, lines = next(way for way in ways if len(way[1]) * _SPACING * way[0] <= room_up)
     bottom = y + max(depth_below(lines[-1], height), 0.25 * height) + 0.4
     return [Text(line, (x, bottom + (len(lines) - 1 - k) * _SPACING * height), height) for k, line in enumerate(lines)]
 
 
-def _wrap(text: str, height: float, width: float) -> list[str]:
+def wrap(text: str, height: float, width: float) -> list[str]:
     """Break a text into lines no wider than a width: at spaces, and within words that are wider."""
     lines = [""]
     for piece in text.replace(" ", " \0").split("\0"):

@@ -1,4 +1,4 @@
-"""Views: model millimetres to paper millimetres at a standard scale (ISO 5455)."""
+"""Views: model millimetres to paper millimetres at scales of ISO 5455 and steps between."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -9,8 +9,11 @@ from isomould.arrays import Floats
 from isomould.documents.numbers import format_number
 from isomould.documents.shop.page import Line, Paper, Pen
 
-SCALES = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0)
-"""Model millimetres per millimetre on paper."""
+SCALES = (1.0, 2.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0)
+"""Model millimetres per millimetre on paper: those of the standard, and steps between that fill sheets better."""
+
+ENLARGED = (0.1, 0.2, 0.5)
+"""Scales of parts that would be too small to be read."""
 
 _SMALL_ENOUGH = 20.0
 """Coarsest scale that is drawn on A4 while A3 would be finer."""
@@ -55,10 +58,10 @@ def choose_paper(asked: Paper | None, scale_on_a4: float) -> Paper:
 def scale_text(scale: float) -> str:
     """Write a scale.
 
-    >>> scale_text(20.0)
-    '1:20'
+    >>> scale_text(20.0), scale_text(0.5)
+    ('1:20', '2:1')
     """
-    return f"1:{format_number(scale)}"
+    return f"1:{format_number(scale)}" if scale >= 1 else f"{format_number(1 / scale)}:1"
 
 
 def middle(points: Floats) -> Floats:
