@@ -21,7 +21,7 @@ def make_pricing(project: Project, stock: StockSettings) -> Pricing:
     """Gather rates and the prices of what is in stock; families are priced where they are compared."""
     sheets = tuple(Price(sheet.name, _given(sheet), sheet.width * sheet.height / 1e6) for sheet in stock.sheets)
     bars = tuple(Price(bar_name(bar.section, bar.length), _given(bar), bar.length / 1e3) for bar in stock.bars)
-    return Pricing(project.costs, sheets, bars, project.nodes.density, project.deliver.compare and is_priced(project))
+    return Pricing(project.costs, sheets, bars, project.deliver.compare and is_priced(project))
 
 
 def is_priced(project: Project) -> bool:

@@ -1,4 +1,4 @@
-"""Details in money: every kilogram in one sum, hardware by piece, from delivered tables of capped and faceted nodes."""
+"""Details in money: every kilogram in one sum, hardware by piece, from delivered tables of all details."""
 
 import math
 
@@ -19,8 +19,14 @@ DESIGNS = {
     "welded": TINY,
     "capped": changed(TINY, nodes={"retention": "lipped-cap"}),
     "faceted": changed(TINY, nodes={"detail": "faceted"}, members={"section": "RHS 100x50x4"}),
+    "finned": changed(TINY, nodes={"detail": "finned"}),
 }
-BOUGHT = {"welded": {"hardware"}, "capped": {"bolt", "nut", "washer"}, "faceted": {"bolt", "washer"}}
+BOUGHT = {
+    "welded": {"hardware"},
+    "capped": {"bolt", "nut", "washer"},
+    "faceted": {"bolt", "washer"},
+    "finned": {"bolt", "nut", "washer"},
+}
 
 
 @pytest.fixture(scope="module", params=DESIGNS)
@@ -48,7 +54,7 @@ def test_every_kilogram_is_carried_once(scheduled):
 def test_steel_of_members_and_fittings_is_bought_once(scheduled):
     name, _, frames, cost = scheduled
     bought = [cost.loc[code, "quantity"] for code in ("steel", "fitting_steel") if code in cost.index]
-    caps = weights(frames["fittings"]) if name == "capped" else 0.0
+    caps = weights(frames["fittings"]) if name in {"capped", "finned"} else 0.0
     assert len(bought) == (1 if name == "welded" else 2)
     assert sum(bought) == pytest.approx(weights(frames["members"]) + caps, abs=1e-9)
 
@@ -68,12 +74,35 @@ def test_threads_and_holes_are_those_of_the_detail(scheduled):
     assert cost.loc["thread", "quantity"] == bolts
     holes = (frames["members"]["quantity"] * frames["members"]["holes"]).sum()
     assert cost.loc["member_hole", "quantity"] == holes
-    assert (holes > 0) == (name == "faceted")
+    assert (holes > 0) == (name in {"faceted", "finned"})
+
+
+def test_bar_is_bought_for_what_is_turned(scheduled):
+    name, _, frames, cost = scheduled
+    nodes = frames["nodes"]
+    bars = math.pi / 4 * nodes["bar_diameter_mm"] ** 2 * nodes["blank_length_mm"] * 7850e-9
+    assert cost.loc["node_steel", "quantity"] == pytest.approx((nodes["quantity"] * bars).sum(), abs=0.01)
+    turned = nodes["bar_mass_kg"] - nodes["removed_volume_cm3"] * 7850e-6
+    welded = nodes["mass_kg"] - turned
+    assert (welded.max() > 1.0) == (name == "finned")
+    assert welded.min() > -0.002
+
+
+def test_fins_are_made_welded_and_not_coated_twice(scheduled):
+    name, _, frames, cost = scheduled
+    if name != "finned":
+        assert "fin" not in cost.index
+        return
+    assert cost.loc["fin", "quantity"] == frames["fittings"]["quantity"].sum()
+    assert cost.loc["fin", "quantity"] == (frames["nodes"]["quantity"] * frames["nodes"]["fins"]).sum()
+    assert cost.loc["fin", "quantity"] == frames["node_fittings"]["total_pieces"].sum() > 0
+    assert cost.loc["weld", "quantity"] > 0
+    assert frames["fittings"]["coated_area_m2"].isna().all()
 
 
 def test_caps_are_coated_and_handled(scheduled):
     name, _, frames, cost = scheduled
-    kinds = ("nodes", "members", "fittings") if name != "welded" else ("nodes", "members")
+    kinds = ("nodes", "members", "fittings") if name in {"capped", "faceted"} else ("nodes", "members")
     area = sum((frames[kind]["quantity"] * frames[kind]["coated_area_m2"]).sum() for kind in kinds)
     assert cost.loc["coating", "quantity"] == pytest.approx(area, rel=1e-12)
     pieces = sum(frames[kind]["quantity"].sum() for kind in ("nodes", "members", "panels"))
@@ -86,12 +115,12 @@ def test_sums_are_reconciled(scheduled):
     found = {line.what: line.status for line in reconcile(tables)}
     assert set(found.values()) == {"pass"}
     assert ("Bolts, nuts and washers paid for = hardware" in found) == (name != "welded")
-    assert ("Caps and end plates paid for = fittings" in found) == (name != "welded")
+    assert ("Caps, end plates and fins paid for = fittings" in found) == (name != "welded")
 
 
 def test_a_rate_per_bolt_changes_the_total_by_the_bolts(scheduled):
     name, tables, _, cost = scheduled
     code = "hardware" if name == "welded" else "bolt"
     schedules = [table for table in tables if table.name not in {"rates", "cost"}]
-    priced = make_cost(schedules, Pricing(CostSettings.model_validate({code: 2.5}), (), (), 7850.0))
+    priced = make_cost(schedules, Pricing(CostSettings.model_validate({code: 2.5}), (), ()))
     assert priced.total == pytest.approx(2.5 * cost.loc[code, "quantity"], rel=1e-12)

@@ -11,10 +11,12 @@ from isomould.form.mesh import Family
 from isomould.parts.catalogue import RhsSection, find_section
 from isomould.parts.details import size_nodes
 from isomould.parts.details.faceted import size_faceted
+from isomould.parts.details.finned import size_finned
 from isomould.parts.details.fittings import make_fittings
+from isomould.parts.details.joint import Counts
 from isomould.parts.hardware import Bolt, Item, find_bolt, next_length
 from isomould.parts.nodes import NodeArms
-from isomould.parts.settings import FacetedSettings, HardwareSettings, MemberSettings, SlottedSettings
+from isomould.parts.settings import FacetedSettings, FinnedSettings, HardwareSettings, MemberSettings, SlottedSettings
 from isomould.parts.solid import make_solid, make_solids
 from museum import SMALL, changed, design
 
@@ -51,7 +53,7 @@ def test_a_flat_cross_of_hollow_sections_by_hand():
     assert limits["distance of facets from the axis"] == pytest.approx((39, 28))
     assert limits["distance of facets uncut by others"] == pytest.approx((39, 28))
     assert limits["distance of threaded holes from the axis"] == pytest.approx((18.25, 18))
-    assert joint.counts == (0, 4, 9)
+    assert joint.counts == Counts(facets=4, holes=9, threads=8)
     assert joint.hardware == (Item("bolt", "M12x30 8.8", "ISO 4017", 8), Item("washer", "M12", "ISO 7089", 8))
     assert (joint.stack_height, joint.stack_radius) == (53, 50)
 
@@ -161,7 +163,98 @@ def test_slots_of_unequal_plates_keep_their_webs():
     assert make_solid(joint.carve(), 1, "N01").volume > 0
 
 
+PLATES = MemberSettings(section=find_section("FL200*12"))
+
+
+def test_a_flat_cross_of_forks_by_hand():
+    """Forks of 13 between fins of 8 are 14.5 wide on each side; faces meet the hub (14.5 + 12)/tan 45° from its axis.
+
+    R = hypot(26.5, 14.5) = 30.2, so the hub has 65. Bolts M12 through 29, two washers of 2.5, a nut of 10.8 and two
+    threads of 1.75 are 50 long; their nuts end at 14.5 + 50 - 29 - 2.5 = 33. The plate ends at 34.5, its holes 1.2 x 13
+    further.
+    """
+    joint = size_finned(CROSS, PLATES, FinnedSettings())[0]
+    assert (joint.diameter, joint.height, joint.fin_height, joint.distance) == (65.0, 200.0, 190.0, 51.0)
+    limits = named(joint)
+    assert limits["foot of fins from the axis"] == pytest.approx((math.sqrt(32.5**2 - 14.5**2), 26.5))
+    assert limits["room for bolts and tool beside forks"] == pytest.approx((51 - 12.5, 33))
+    assert limits["end of the members before their bolts"] == pytest.approx((51 - 34.5, 15.6))
+    assert limits["edge of the fins beside their bolts"] == pytest.approx((95 - 50, 15.6))
+    assert limits["pitch of bolts"] == pytest.approx((100, 31.2))
+    assert joint.counts == Counts(fins=8, holes=17)
+    assert joint.weld_length == pytest.approx(8 * 190)
+    assert joint.hardware == (
+        Item("bolt", "M12x50 8.8", "ISO 4017", 8),
+        Item("nut", "M12", "ISO 4032", 8),
+        Item("washer", "M12", "ISO 7089", 16),
+    )
+    foot = math.sqrt(32.5**2 - 6.5**2)
+    corners = np.array([(foot, -95), (67, -95), (67, 95), (foot, 95)])
+    assert np.array(joint.fins[0].corners) == pytest.approx(corners, abs=1e-3)
+
+
+def test_the_volume_of_a_flat_cross_of_forks_by_hand():
+    """Hub and fins from its round surface on, the wedges filled, less bore and holes."""
+    joint = size_finned(CROSS, PLATES, FinnedSettings())[0]
+    solid = make_solids(CROSS, (joint,))[0]
+
+    def under(y: float) -> float:
+        return (y * math.sqrt(32.5**2 - y**2) + 32.5**2 * math.asin(y / 32.5)) / 2
+
+    fin = 190 * (8 * 67 - (under(14.5) - under(6.5))) - 2 * 8 * math.pi / 4 * 13**2
+    assert solid.volume == pytest.approx(math.pi * (32.5**2 - 10**2) * 200 + 8 * fin, rel=2e-4)
+    assert (solid.genus, solid.components) == (17, 1)
+
+
+def test_tools_and_bolts_reach_the_holes_of_acute_forks():
+    """A socket before the head of a bolt whose tip is at its fin stays clear of what stands on the next fork."""
+    nodes = OneClass([0, 50, 130, 245], [14, -5, 10, -12], [G, P, G, P])
+    joint = size_finned(nodes, PLATES, FinnedSettings(bolt_columns=2))[0]
+    assert make_solids(nodes, (joint,))[0].genus == 4 * 8 + 1
+    fork, radius = joint.forks[0], find_bolt("M12").tool / 2
+    for arm, (azimuth, elevation) in enumerate(zip(joint.arms.azimuth, joint.arms.elevation, strict=True)):
+        near = joint.distance * math.cos(elevation) - 50 * abs(math.sin(elevation)) - radius
+        for other in np.delete(joint.arms.azimuth, arm):
+            turn = min(abs(other - azimuth), 2 * math.pi - abs(other - azimuth))
+            corners = [(near, 0.0), (near, fork.reach), (near + 400, fork.reach)]
+            aside = [x * math.sin(turn) - y * math.cos(turn) for x, y in corners]
+            assert turn > math.pi / 2 + 0.3 or min(aside) >= fork.envelope - 1e-9
+
+
 REFUSALS = {
+    "tube in a fork": (
+        {"nodes": {"detail": "finned"}, "members": {"section": "RHS 100x50x4"}},
+        ["E-NODE-SECTION", "RHS100*50*4 in a fork", "faceted"],
+    ),
+    "hub too small": ({"nodes": {"detail": "finned", "drum_diameter": 50}}, ["E-NODE-DRUM", "50.000 mm", "63.235 mm"]),
+    "holes too near to the plate's end": (
+        {"nodes": {"detail": "finned", "bolt_distance": 45}},
+        ["E-NODE-LIMIT", "end of the members before their bolts", "at least 15.600 mm", "bolt_distance"],
+    ),
+    "rows too far apart": (
+        {"nodes": {"detail": "finned", "bolt_spacing": 150}},
+        ["E-NODE-LIMIT", "edge of the fins beside their bolts", "at least 15.600 mm"],
+    ),
+    "rows too near": (
+        {"nodes": {"detail": "finned", "bolt_spacing": 20}},
+        ["E-NODE-LIMIT", "pitch of bolts is 20.000 mm", "31.200 mm"],
+    ),
+    "columns too near": (
+        {"nodes": {"detail": "finned", "bolt_columns": 2, "bolt_pitch": 20}},
+        ["E-NODE-LIMIT", "pitch of bolts is 20.000 mm", "31.200 mm"],
+    ),
+    "fins higher than members": (
+        {"nodes": {"detail": "finned", "fin_height": 220}},
+        ["E-NODE-LIMIT", "level of members' edges at the hub is 100.000 mm", "at least 115"],
+    ),
+    "bore as wide as the hub": (
+        {"nodes": {"detail": "finned", "drum_diameter": 70, "bore": 60}},
+        ["E-NODE-DRUM", "76"],
+    ),
+    "longer than any bolt": (
+        {"nodes": {"detail": "finned", "fin_thickness": 250}},
+        ["E-NODE-BOLT", "250 mm", "500 mm"],
+    ),
     "tube in a slot": ({"members": {"section": "RHS 100x50x4"}}, ["E-NODE-SECTION", "RHS100*50*4", "faceted"]),
     "plate on a facet": ({"nodes": {"detail": "faceted"}}, ["E-NODE-SECTION", "FL200*12", "slotted"]),
     "bolt too thick": (

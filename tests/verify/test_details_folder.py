@@ -1,4 +1,4 @@
-"""Delivered folders of capped and faceted nodes, whole and spoilt: every check of details finds its fault."""
+"""Delivered folders of capped, faceted and finned nodes, whole and spoilt: every check of details finds its fault."""
 
 import json
 import re
@@ -14,7 +14,7 @@ import isomould
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
-from museum import SMALL, changed, write_project
+from museum import BARE, SMALL, changed, write_project
 
 BY_ID = {rule.id: rule for rule in RULES}
 TINY = changed(
@@ -25,19 +25,27 @@ TINY = changed(
 DESIGNS = {
     "capped": changed(TINY, nodes={"retention": "lipped-cap"}, members={"parallel": "FL200*15"}),
     "faceted": changed(TINY, nodes={"detail": "faceted"}, members={"section": "RHS 100x50x4"}),
+    "finned": changed(TINY, nodes={"detail": "finned"}, members={"parallel": "FL200*15"}, deliver=BARE),
 }
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """Both folders, by name."""
+    """The folders, by name."""
     folder = tmp_path_factory.mktemp("details")
     run = isomould.Run(effort="quick", jobs=1)
     projects = {name: write_project(folder / f"{name}.toml", data) for name, data in DESIGNS.items()}
     return {name: isomould.build(path, folder / name, run=run).folder for name, path in projects.items()}
 
 
-@pytest.mark.parametrize(("name", "silent"), [("capped", {"V37c", "V38b"}), ("faceted", {"V37b", "V38", "V39b"})])
+SILENT = {
+    "capped": {"V37c", "V37d", "V38b", "V38d", "V38e"},
+    "faceted": {"V37b", "V38", "V38d", "V38e", "V39b"},
+    "finned": {"V37b", "V37c", "V38", "V38b", "V39b"},
+}
+
+
+@pytest.mark.parametrize(("name", "silent"), SILENT.items())
 def test_details_are_proved_with_something_to_prove(built, name, silent):
     checks = {rule: judge(BY_ID[rule], Delivery(built[name])) for rule in BY_ID if re.match("V3[7-9]", rule)}
     assert {rule for rule, check in checks.items() if check.status == "not_applicable"} == silent
@@ -107,8 +115,19 @@ def anywhere(_x, _y):
     return True
 
 
+def at_free_end(x, _y):
+    return x > 60
+
+
 def at_notch_floor(x, y):
     return x < 100 and 90 < y < 99 and x > 30
+
+
+def move_hole(x, y=0.0):
+    def change(circle):
+        circle.dxf.center = (circle.dxf.center.x + x, circle.dxf.center.y + y)
+
+    return change
 
 
 def grow(circle):
@@ -135,6 +154,18 @@ SEEDS = {
     "bolt hole of an end plate": ("faceted", "V39", edit_drawing("fittings/*.dxf", "DRILL", grow)),
     "cap squashed flat": ("capped", "V39b", edit_solid("fittings/*.3mf", lambda x: 0.0)),
     "one bolt less": ("faceted", "V39c", edit_row("hardware", put("pieces", "1"))),
+    "hole of a member moved": ("finned", "V38c", edit_drawing("members/*.dxf", "DRILL", move_hole(0.02))),
+    "bolt that meets no fin": ("finned", "V38d", edit_drawing("members/*.dxf", "DRILL", move_hole(0.0, 0.02))),
+    "hole at the edge of a member": ("finned", "V37d", edit_drawing("members/*.dxf", "DRILL", move_hole(0.0, -40.0))),
+    "hole at the edge of a fin": ("finned", "V37d", edit_drawing("fittings/*.dxf", "DRILL", move_hole(2.0))),
+    "hole of a fin moved": ("finned", "V38e", edit_drawing("fittings/*.dxf", "DRILL", move_hole(0.02))),
+    "fin too long": ("finned", "V38e", edit_drawing("fittings/*.dxf", "CUT", move_points(at_free_end, (0.02, 0)))),
+    "fins out of place": ("finned", "V38e", edit_solid("nodes/*.3mf", lambda x: 1.001 * x)),
+    "fins of another arm": ("finned", "V38e", edit_row("node_fittings", put("fitting", "F02"))),
+    "fins of a node less": ("finned", "V39c", edit_row("node_fittings", put("total_pieces", "2"))),
+    "mass of fins": ("finned", "V39", edit_row("fittings", put("mass_kg", "0.5"))),
+    "one nut less": ("finned", "V39c", edit_table("hardware", lambda rows: rows[1].update(pieces="3"))),
+    "a hole that is not there": ("finned", "V20", edit_row("nodes", put("holes", "10"))),
     "caps of another mass in all": ("capped", "V44", edit_row("fittings", put("total_mass_kg", "1"))),
     "caps of one node less": ("capped", "V39c", edit_row("fittings", put("quantity", "2"))),
 }  # fmt: skip

@@ -171,8 +171,9 @@ def node_row(i, j):
     row |= mass(volume * STEEL / 1e9, row["quantity"])
     row |= {"volume_cm3": volume / 1e3, "coated_area_m2": (2 * face + outline * height) / 1e6}
     row |= {"bar_diameter_mm": bar, "blank_length_mm": height + FACING}
-    row |= {"removed_volume_cm3": (pi / 4 * bar**2 * (height + FACING) - volume) / 1e3}
-    row |= {"slots": count, "facets": 0, "holes": 1, "threads": 0, "weld_length_mm": 2 * height * count}
+    blank = pi / 4 * bar**2 * (height + FACING)
+    row |= {"bar_mass_kg": blank * STEEL / 1e9, "removed_volume_cm3": (blank - volume) / 1e3}
+    row |= {"slots": count, "facets": 0, "fins": 0, "holes": 1, "threads": 0, "weld_length_mm": 2 * height * count}
     angle = max(apart(node_description(*place), node_description(i, j)) for place in same(node_classes(), (i, j)))
     row |= {"max_deviation_mm": angle * RADIUS, "max_deviation_deg": degrees(angle)}
     files = f"nodes/{row['mark']}.dxf;{sheet('nodes', row['mark'])}"

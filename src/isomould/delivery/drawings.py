@@ -20,7 +20,9 @@ from isomould.parts.bodies import section_outline
 from isomould.parts.details.bolting import Bolting
 from isomould.parts.details.caps import Cap
 from isomould.parts.details.faceted import FacetedJoint
-from isomould.parts.details.joint import Joint
+from isomould.parts.details.finned import FinnedJoint
+from isomould.parts.details.fittings import name_fins
+from isomould.parts.details.joint import Fin, Joint
 from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.kit import Kit
 from isomould.parts.sections import view_solid
@@ -67,9 +69,21 @@ def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:
     table, kit = tables["nodes"], delivery.design.kit
     rows = schedule_rows(table)
     parts = zip(rows, delivery.solids, _set_backs(kit), map(detail_notes, kit.joints), kit.bases, strict=True)
-    drawn = [NodeDrawing(row, view_solid(solid), backs, notes, base) for row, solid, backs, notes, base in parts]
+    fins = [_fins_of_arms(delivery, k) for k in range(len(rows))]
+    drawn = [
+        NodeDrawing(row, view_solid(solid), backs, notes, base, *fin)
+        for (row, solid, backs, notes, base), fin in zip(parts, fins, strict=True)
+    ]
     pages = [node_sheet(stationery, table, node, k, len(rows)) for k, node in enumerate(drawn, start=1)]
     return Book("nodes", "Nodes", tuple(pages))
+
+
+def _fins_of_arms(delivery: Delivery, node: int) -> tuple[tuple[str, ...], Fin | None]:
+    """Give the mark of the fins on every arm of a node class, empty for sills, and the fin of arm 1."""
+    arms, joint = delivery.design.kit.nodes.arms[node], delivery.design.kit.joints[node]
+    named = name_fins(joint, arms, delivery.fittings)
+    first = joint.fins[0] if joint.fins and 1 in named else None
+    return tuple(named.get(k, "") for k in range(1, len(arms.azimuth) + 1)), first
 
 
 def _set_backs(kit: Kit) -> list[tuple[str, ...]]:
@@ -97,7 +111,22 @@ def detail_notes(joint: Joint) -> tuple[str, ...]:
         return (*(slots if widths else []), *_grooves(joint.cap), *bore)
     if isinstance(joint, FacetedJoint):
         return (f"Facets {length_text(joint.distance)} from the work point", *_threads(joint), *bore)
+    if isinstance(joint, FinnedJoint):
+        return (*_forks(joint), *bore)
     return tuple(bore)
+
+
+def _forks(joint: FinnedJoint) -> list[str]:
+    """Say what fins are and where their holes are, along the members from the work point."""
+    if not joint.forks:
+        return []
+    gaps = " and ".join(map(length_text, sorted({fork.gap for fork in joint.forks})))
+    places = " and ".join(length_text(joint.distance + x) for x in joint.pattern.columns)
+    return [
+        f"Two fins per arm, {length_text(joint.forks[0].fin)} thick, {gaps} apart",
+        f"Holes Ø{length_text(joint.pattern.hole)} at {places} from the work point",
+        "Seams: along the foot of every fin, from outside",
+    ]
 
 
 def _grooves(cap: Cap | None) -> list[str]:

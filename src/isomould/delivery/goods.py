@@ -8,7 +8,7 @@ from isomould.comparison import Compared, compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
-from isomould.documents.node_tables import fitting_table, hardware_table, limit_table
+from isomould.documents.node_tables import fitting_table, hardware_table, limit_table, node_fitting_table
 from isomould.documents.overview import kit_facts, layout_facts
 from isomould.documents.packing import packing_tables
 from isomould.documents.revision import Former, revision_table
@@ -86,7 +86,7 @@ class Delivery:
 
     @cached_property
     def fittings(self) -> tuple[Fitting, ...]:
-        """Caps and end plates."""
+        """Caps, end plates and fins."""
         kit = self.design.kit
         return make_fittings(kit.nodes, kit.joints, kit.members)
 
@@ -106,6 +106,7 @@ def make_schedules(delivery: Delivery) -> tuple[Table, ...]:
     about = [
         limit_table(design.kit),
         hardware_table(design.kit),
+        node_fitting_table(design.kit, delivery.fittings),
         fitting_table(delivery.fittings, settings.members.density),
     ]
     sheets = sheet_table(cutting.sheets, cutting.stock)

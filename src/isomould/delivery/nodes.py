@@ -6,8 +6,7 @@ from pathlib import Path
 from isomould.arrays import Floats, Ints
 from isomould.delivery.goods import Delivery
 from isomould.documents.base_drawings import plate_drawing, stem_drawing
-from isomould.documents.node_plans import drum_plan
-from isomould.parts.details.slotted import SlottedJoint
+from isomould.documents.node_plans import node_plan
 from isomould.parts.solid import Solid
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
@@ -29,10 +28,11 @@ def write_nodes(folder: Path, delivery: Delivery) -> None:
 
 
 def _write_plans(folder: Path, delivery: Delivery) -> None:
-    """Write the plans of slotted drums, and of supports their base plates: those carry the mark alone."""
+    """Write the plans of drums and hubs, and of supports their base plates: those carry the mark alone."""
     kit, project = delivery.design.kit, delivery.design.project
     for mark, joint, base in zip(kit.nodes.marks, kit.joints, kit.bases, strict=True):
-        plan = {f"{mark}-drum" if base else mark: drum_plan(mark, joint)} if isinstance(joint, SlottedJoint) else {}
+        drawn = node_plan(mark, joint)
+        plan = {f"{mark}-drum" if base else mark: drawn} if drawn else {}
         plates = {mark: plate_drawing(mark, base), f"{mark}-stem": stem_drawing(mark, base)} if base else {}
         for name, drawing in (plan | plates).items():
             write_dxf(folder / f"{name}.dxf", drawing, project.deliver.layers)

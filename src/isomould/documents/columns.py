@@ -32,8 +32,8 @@ TABLES: dict[str, tuple[str, ...]] = {
     for name, text in {
         "summary": "item value unit",
         "nodes": f"""mark quantity kind valence handed {ARMS} drum_diameter_mm drum_height_mm mass_kg
-            total_mass_kg volume_cm3 coated_area_m2 bar_diameter_mm blank_length_mm removed_volume_cm3 slots
-            facets holes threads
+            total_mass_kg volume_cm3 coated_area_m2 bar_diameter_mm blank_length_mm bar_mass_kg removed_volume_cm3
+            slots facets fins holes threads
             base_length_mm base_width_mm base_level_mm base_holes base_mass_kg
             weld_length_mm max_deviation_mm max_deviation_deg solid_file drawing_file""",
         "node_instances": """location mark i j x_mm y_mm z_mm axis_x axis_y axis_z ref_x ref_y ref_z
@@ -54,6 +54,7 @@ TABLES: dict[str, tuple[str, ...]] = {
         "crates": "crate part mark quantity mass_kg total_mass_kg locations",
         "node_limits": "mark what value_mm required_mm margin_mm",
         "hardware": "mark quantity item size standard pieces total_pieces",
+        "node_fittings": "mark quantity arm fitting pieces total_pieces",
         "fittings": "mark quantity kind size mass_kg total_mass_kg coated_area_m2 file",
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
@@ -90,8 +91,8 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
-    """quantity quantity_before valence slots facets holes threads base_holes i j first_corner parts cuts pieces count
-    parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes members_count
+    """quantity quantity_before valence slots facets fins holes threads arm base_holes i j first_corner parts cuts
+    pieces count parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes members_count
     member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
@@ -103,6 +104,7 @@ _TOTALS: dict[str, frozenset[str]] = {
     "members": frozenset(("quantity", "total_mass_kg")),
     "panels": frozenset(("quantity", "total_area_m2", "total_mass_kg")),
     "hardware": frozenset(("total_pieces",)),
+    "node_fittings": frozenset(("total_pieces",)),
     "fittings": frozenset(("quantity", "total_mass_kg")),
     "sheets": frozenset(("parts", "part_area_m2", "cut_length_mm", "cuts", "price")),
     "bars": frozenset(("pieces", "used_mm", "offcut_mm", "price")),

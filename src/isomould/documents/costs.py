@@ -34,7 +34,7 @@ class Price:
 
 @dataclass(frozen=True)
 class Pricing:
-    """What the cost needs to know beside the schedules: rates, stock and its prices, density of the nodes (kg/m³).
+    """What the cost needs to know beside the schedules: rates, stock and its prices.
 
     `repetition` says that mesh families are priced too, which have nodes with torsion.
     """
@@ -42,7 +42,6 @@ class Pricing:
     rates: CostSettings
     sheets: tuple[Price, ...]
     bars: tuple[Price, ...]
-    node_density: float
     repetition: bool = False
 
 
@@ -166,8 +165,7 @@ def _material(tables: Tables, rates: Mapping[str, Rate], pricing: Pricing) -> It
         yield Line(
             "steel", "Material", "Members", "kg", steel_of_members(tables), rates["steel"], rates["waste_members"]
         )
-    volume = [products(tables, "nodes.quantity", name) for name in ("volume_cm3", "removed_volume_cm3")]
-    blanks = (volume[0] + volume[1]) * Given(pricing.node_density) / Given(1e6)
+    blanks = products(tables, "nodes.quantity", "bar_mass_kg")
     yield Line("node_steel", "Material", "Round bar for nodes", "kg", blanks, rates["node_steel"])
     bases = products(tables, "nodes.quantity", "base_mass_kg")
     yield Line("base_steel", "Material", "Base plates and stems of supports", "kg", bases, rates["base_steel"])

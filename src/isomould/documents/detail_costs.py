@@ -1,4 +1,4 @@
-"""What hardware, caps and end plates cost, and where their mass is paid for and carried (fabrication, Costs)."""
+"""What hardware, caps, end plates and fins cost, and where their mass is paid for and carried (fabrication, Costs)."""
 
 from isomould.documents.live import Live, add_up
 from isomould.documents.quantities import Tables, products, sum_if, total
@@ -8,7 +8,7 @@ Work = tuple[str, str, str, str, Live]
 """Code, group, description, unit and quantity of a line."""
 
 _BOUGHT = {"bolt": "Bolts", "nut": "Nuts", "washer": "Washers"}
-_MADE = {"cap": ("cap", "Caps"), "end_plate": ("end-plate", "End plates")}
+_MADE = {"cap": ("cap", "Caps"), "end_plate": ("end-plate", "End plates"), "fin": ("fin", "Fins")}
 """Rates of fittings, with the kind that they are for."""
 
 
@@ -27,32 +27,32 @@ def steel_of_members(tables: Tables) -> Live:
 
 
 def delivered_masses(tables: Tables) -> Live:
-    """Mass of all parts (kg), each once: supports include their bases, members their end plates."""
+    """Mass of all parts (kg), each once: nodes include bases and fins, members their end plates."""
     parts = [total(tables, f"{name}.total_mass_kg") for name in ("nodes", "members", "panels")]
     return add_up([*parts, *_caps(tables, "total_mass_kg")])
 
 
 def handled_pieces(tables: Tables) -> Live:
-    """Number of the pieces that leave the shop loose; end plates are in their members."""
+    """Number of the pieces that leave the shop loose; fins are on their nodes, end plates in their members."""
     parts = [total(tables, f"{name}.quantity") for name in ("nodes", "members", "panels")]
     return add_up([*parts, *_caps(tables, "quantity")])
 
 
 def coated_area(tables: Tables) -> Live:
-    """Coated area (m²) of nodes, members, caps and end plates."""
+    """Coated area (m²) of nodes with their fins, members, caps and end plates."""
     names = [name for name in ("nodes", "members", "fittings") if name in tables]
     return add_up([products(tables, f"{name}.quantity", "coated_area_m2") for name in names])
 
 
 def material_lines(tables: Tables) -> tuple[Work, ...]:
-    """Give the steel of caps and end plates."""
+    """Give the steel of caps, end plates and fins."""
     if "fittings" not in tables:
         return ()
-    return (("fitting_steel", "Material", "Caps and end plates", "kg", total(tables, "fittings.total_mass_kg")),)
+    return (("fitting_steel", "Material", "Caps, end plates and fins", "kg", total(tables, "fittings.total_mass_kg")),)
 
 
 def fabrication_lines(tables: Tables) -> tuple[Work, ...]:
-    """Give holes of members, threads of nodes, and what makes caps and end plates."""
+    """Give holes of members, threads of nodes, and what makes caps, end plates and fins."""
     needless = needless_rates(tables)
     made = [
         (code, "Fabrication", words, "pieces", _of_kind(tables, kind, "quantity"))

@@ -1,27 +1,53 @@
-"""Plans of slotted drums, cut from a plate or milled from a disc: the drum seen along its axis from outside."""
+"""Plans of nodes, seen along the axis from outside: slotted drums as they are cut, hubs with their fins."""
 
 import numpy as np
 
 from isomould.arrays import Floats, round_um
 from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing, Polyline
+from isomould.parts.details.finned import FinnedJoint
+from isomould.parts.details.joint import Joint
 from isomould.parts.details.slotted import SlottedJoint
 
 
-def drum_plan(mark: str, joint: SlottedJoint) -> CutDrawing:
-    """Draw the outline of a drum with its slots and its bore; +x is the direction of arm 1."""
-    points, bulges = _contour(joint)
-    radius = joint.bore / 2
-    circle = Polyline("CUT_INNER", np.array([[radius, 0.0], [-radius, 0.0]]), True, np.array([1.0, 1.0]))
-    inner = [circle] if radius else []
-    return part_drawing(mark, points, bulges, inner, f"drum, height {joint.height:.3f}")
+def node_plan(mark: str, joint: Joint) -> CutDrawing | None:
+    """Draw a node in plan, +x in the direction of arm 1; None for drums that no plan describes."""
+    if isinstance(joint, SlottedJoint):
+        return part_drawing(mark, *_contour(joint), _bore(joint), f"drum, height {joint.height:.3f}")
+    if isinstance(joint, FinnedJoint):
+        hub = part_drawing(mark, *_circle(joint.radius), _bore(joint), f"hub, height {joint.height:.3f}")
+        return CutDrawing((*hub.entities, *_fins(joint)))
+    return None
+
+
+def _circle(radius: float) -> tuple[Floats, Floats]:
+    return np.array([[radius, 0.0], [-radius, 0.0]]), np.ones(2)
+
+
+def _bore(joint: Joint) -> list[Polyline]:
+    points, bulges = _circle(joint.bore / 2)
+    return [Polyline("CUT_INNER", points, True, bulges)] if joint.bore else []
+
+
+def _fins(joint: FinnedJoint) -> list[Polyline]:
+    """Where the fins stand around the hub: their outlines from above, for information."""
+    arms = zip(joint.forks, joint.fins, joint.arms.azimuth.tolist(), joint.arms.elevation.tolist(), strict=True)
+    found = list[Polyline]()
+    for fork, fin, azimuth, elevation in arms:
+        corners = np.array(fin.corners)
+        out = corners[:, 0] * np.cos(elevation) - corners[:, 1] * abs(np.sin(elevation))
+        for low, high in ((fork.gap / 2, fork.half), (-fork.half, -fork.gap / 2)):
+            foot, end = float(out.min()), float(out.max())
+            box = np.array([[foot, low], [end, low], [end, high], [foot, high]])
+            found.append(Polyline("INFO", round_um(_turned(box, azimuth)), True))
+    return found
 
 
 def _contour(joint: SlottedJoint) -> tuple[Floats, Floats]:
     """Corners (n, 2) and bulges (n,), counter-clockwise: a slot, the arc to the next one, and so on."""
     arms, widths = joint.arms, joint.slot_widths
     if not len(widths):  # a corner where sills meet and nothing ends
-        return np.array([[joint.radius, 0.0], [-joint.radius, 0.0]]), np.ones(2)
+        return _circle(joint.radius)
     taken = np.arcsin(widths / 2 / joint.radius)
     rim = arms.held_gap - taken - np.roll(taken, -1)
     slots = [_turned(_slot(joint, w), angle) for w, angle in zip(widths.tolist(), arms.azimuth.tolist(), strict=True)]

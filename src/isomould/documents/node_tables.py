@@ -1,7 +1,7 @@
 """The tables that go with the nodes: limits with their margins, bought hardware, made fittings."""
 
 from isomould.documents.table import Table, make_table
-from isomould.parts.details.fittings import Fitting
+from isomould.parts.details.fittings import Fitting, name_fins
 from isomould.parts.kit import Kit
 
 _KG_PER_MM3 = 1e-9
@@ -42,7 +42,7 @@ def hardware_table(kit: Kit) -> Table:
 
 
 def fitting_table(fittings: tuple[Fitting, ...], density: float) -> Table:
-    """Give one row per kind of cap or end plate; `density` in kg/m³."""
+    """Give one row per kind of cap, end plate or fin; `density` in kg/m³. Fins are coated with their nodes."""
     return make_table(
         "fittings",
         {
@@ -51,7 +51,27 @@ def fitting_table(fittings: tuple[Fitting, ...], density: float) -> Table:
             "kind": [fitting.kind for fitting in fittings],
             "size": [fitting.size for fitting in fittings],
             "mass_kg": [fitting.volume * density * _KG_PER_MM3 for fitting in fittings],
-            "coated_area_m2": [fitting.surface / 1e6 for fitting in fittings],
+            "coated_area_m2": [fitting.surface and fitting.surface / 1e6 for fitting in fittings],
             "file": [f"fittings/{f.mark}.{'3mf' if f.solid else 'dxf'}" for f in fittings],
+        },
+    )
+
+
+def node_fitting_table(kit: Kit, fittings: tuple[Fitting, ...]) -> Table:
+    """Give one row per node class and arm with fins: which, and how many per node."""
+    classes = zip(kit.nodes.marks, kit.nodes.classes.quantity.tolist(), kit.joints, kit.nodes.arms, strict=True)
+    rows = [
+        (mark, count, arm, fin)
+        for mark, count, joint, arms in classes
+        for arm, fin in name_fins(joint, arms, fittings).items()
+    ]
+    return make_table(
+        "node_fittings",
+        {
+            "mark": [mark for mark, *_ in rows],
+            "quantity": [count for _, count, *_ in rows],
+            "arm": [arm for _, _, arm, _ in rows],
+            "fitting": [fin for *_, fin in rows],
+            "pieces": [2] * len(rows),
         },
     )

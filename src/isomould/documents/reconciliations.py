@@ -71,7 +71,7 @@ def _groups(tables: Tables) -> Live:
 
 
 def _masses(tables: Tables) -> Live:
-    """Mass of all parts in tonnes, part by part; caps are in no other part, end plates are in their members."""
+    """Mass of all parts in tonnes, part by part; caps are in no other part, fins in nodes, end plates in members."""
     parts = [products(tables, f"{part}.quantity", "mass_kg") for part in ("nodes", "members", "panels")]
     caps = [sum_if(tables["fittings"], "kind", "cap", "total_mass_kg")] if "fittings" in tables else []
     return _added([*parts, *caps]) / Given(1000.0)
@@ -155,9 +155,9 @@ _RECONCILED: tuple[tuple[str, str, Side, Side, float], ...] = (
         0.0,
     ),
     (
-        "Caps and end plates paid for = fittings",
+        "Caps, end plates and fins paid for = fittings",
         "cost fittings",
-        _lines("cap", "end_plate"),
+        _lines("cap", "end_plate", "fin"),
         _sum("fittings.quantity"),
         0.0,
     ),

@@ -78,7 +78,7 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn:
     bar = asked.diameter_step * np.ceil(np.round((diameter + asked.bar_allowance) / asked.diameter_step, 9))
     blank = np.round(height + asked.facing_allowance, 6)
     deviation = _worst(nodes.deviation, nodes.classes.of, count)
-    slots, facets, holes = (list(counts) for counts in zip(*(joint.counts for joint in joints), strict=True))
+    turned = np.array([joint.turned_volume(solid.volume) for joint, solid in zip(joints, solids, strict=True)])
     return {
         "mark": list(nodes.marks),
         "quantity": nodes.classes.quantity.tolist(),
@@ -93,11 +93,9 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn:
         "coated_area_m2": [solid.surface / 1e6 for solid in solids],
         "bar_diameter_mm": bar.tolist(),
         "blank_length_mm": blank.tolist(),
-        "removed_volume_cm3": ((np.pi / 4 * bar**2 * blank - volume) / 1e3).tolist(),
-        "slots": slots,
-        "facets": facets,
-        "holes": holes,
-        "threads": [joint.threads for joint in joints],
+        "bar_mass_kg": (np.pi / 4 * bar**2 * blank * asked.density * _KG_PER_MM3).tolist(),
+        "removed_volume_cm3": ((np.pi / 4 * bar**2 * blank - turned) / 1e3).tolist(),
+        **{name: [getattr(joint.counts, name) for joint in joints] for name in _COUNTED},
         **_base_columns(kit, asked.density),
         "weld_length_mm": [joint.weld_length for joint in joints],
         "max_deviation_mm": (deviation * diameter / 2).tolist(),
@@ -105,6 +103,10 @@ def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn:
         "solid_file": [f"nodes/{mark}.3mf" for mark in nodes.marks],
         "drawing_file": _node_files(kit, drawn=drawn),
     }
+
+
+_COUNTED = ("slots", "facets", "fins", "holes", "threads")
+"""What is counted of a node."""
 
 
 def _base_columns(kit: Kit, density: float) -> Columns:
@@ -130,7 +132,7 @@ def sheet_of(book: str, number: int) -> str:
 
 def _node_files(kit: Kit, *, drawn: bool) -> list[str]:
     """Faceted nodes have no plan for a machine; all others have one, or their base plate."""
-    planned = [joint.counts[1] == 0 or base is not None for joint, base in zip(kit.joints, kit.bases, strict=True)]
+    planned = [joint.counts.facets == 0 or base is not None for joint, base in zip(kit.joints, kit.bases, strict=True)]
     files = _files("nodes", kit.nodes.marks, drawn=drawn)
     return [names if plan else names.partition(";")[2] for names, plan in zip(files, planned, strict=True)]
 

@@ -1,6 +1,7 @@
 """What is bought: hexagon bolts with nuts and washers, by exact size (ISO 4014, 4017, 4032, 7089)."""
 
 import csv
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -38,6 +39,19 @@ class Item:
     size: str
     standard: str
     quantity: int
+
+
+def gather(items: Iterable[Item]) -> tuple[Item, ...]:
+    """Count equal items together, in the order in which they come first.
+
+    >>> gather([Item("nut", "M12", "ISO 4032", 2)] * 3)
+    (Item(item='nut', size='M12', standard='ISO 4032', quantity=6),)
+    """
+    found: dict[tuple[str, str, str], int] = {}
+    for each in items:
+        key = (each.item, each.size, each.standard)
+        found[key] = found.get(key, 0) + each.quantity
+    return tuple(Item(*key, quantity) for key, quantity in found.items())
 
 
 def find_bolt(size: str) -> Bolt:

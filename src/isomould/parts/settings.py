@@ -60,7 +60,7 @@ class BasePlateSettings(Settings):
 
 
 class HardwareSettings(Settings):
-    """The `[nodes.hardware]` table: the centre bolt of caps, or the bolts that hold hollow sections."""
+    """The `[nodes.hardware]` table: the centre bolt of caps, or the bolts that hold members."""
 
     bolt: BoltSize = "M12"
     grade: Annotated[str, Field(min_length=1, max_length=12), ONE_LINE] = "8.8"
@@ -117,9 +117,9 @@ class EdgeDeduction(Settings):
 
 
 def _known_detail(value: object) -> object:
-    """Word what neither kind of table takes."""
+    """Word what no kind of table takes."""
     if value != "slotted":
-        message = f"{value!r} is no node detail; one of 'slotted', 'faceted'"
+        message = f"{value!r} is no node detail; one of 'slotted', 'faceted', 'finned'"
         raise ValueError(message)
     return value
 
@@ -154,16 +154,44 @@ class FacetedSettings(DrumSettings):
     """Least length of thread in the drum, in bolt diameters."""
 
 
+class FinnedSettings(DrumSettings):
+    """The `[nodes]` table of hubs with forks of two fins, for plates (fabrication, Node solids)."""
+
+    detail: Literal["finned"] = "finned"
+    clearance: NonNegativeLength = 1.0
+    """Width of a fork beyond the plate's thickness."""
+    fin_thickness: PositiveLength = 8.0
+    fin_height: PositiveLength | None = None
+    """Across the members; the largest that fits without it."""
+    fin_cover: PositiveLength = 5.0
+    """Of the hub above and below the fins."""
+    weld_access: NonNegativeLength = 12.0
+    """From a fin's foot to the plane halfway to the next fork."""
+    bolt_rows: Annotated[int, Field(ge=1, le=4)] = 2
+    """Across the depth of a member's end."""
+    bolt_columns: Annotated[int, Field(ge=1, le=4)] = 1
+    """Along the member."""
+    bolt_spacing: PositiveLength | None = None
+    """Of the rows; the depth by the number of rows without it."""
+    bolt_pitch: PositiveLength | None = None
+    """Of the columns; the smallest without it."""
+    bolt_distance: PositiveLength | None = None
+    """From the work point to the first column."""
+
+
 def _detail(value: object) -> str:
     """Tell which detail a `[nodes]` table asks for."""
     asked = (
         cast("dict[str, object]", value).get("detail") if isinstance(value, dict) else getattr(value, "detail", None)
     )
-    return "faceted" if asked == "faceted" else "slotted"
+    return asked if isinstance(asked, str) and asked in {"faceted", "finned"} else "slotted"
 
 
 NodeSettings = Annotated[
-    Annotated[SlottedSettings, Tag("slotted")] | Annotated[FacetedSettings, Tag("faceted")], Discriminator(_detail)
+    Annotated[SlottedSettings, Tag("slotted")]
+    | Annotated[FacetedSettings, Tag("faceted")]
+    | Annotated[FinnedSettings, Tag("finned")],
+    Discriminator(_detail),
 ]
 """The `[nodes]` table."""
 

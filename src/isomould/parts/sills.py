@@ -33,6 +33,7 @@ def set_backs(mesh: Mesh, arms: Arms, joints: Sequence[Joint], settings: MemberS
         others = [other for other in np.flatnonzero(arms.node == arms.node[row]).tolist() if other != row]
         clear = [joint.reach(float(arms.elevation[row]))]
         clear += [_past_member(arms, (row, other), tops, sections) for other in others]
+        clear += [_past_hold(arms, (row, other), tops, sections, joint) for other in others if not arms.sill[other]]
         found[arms.edge[row], arms.end[row]] = max(clear) + joint.clearance
     return np.ceil(np.round(found * 1000, 3)) / 1000
 
@@ -53,11 +54,34 @@ def _past_member(arms: Arms, rows: tuple[int, int], tops: Floats, sections: list
     all of it.
     """
     row, other = rows
-    along, away = arms.direction[row], arms.direction[other]
-    top, other_top = tops[arms.edge[row]], tops[arms.edge[other]]
-    across, other_across = np.cross(along, top), np.cross(away, other_top)
-    section, beyond = sections[arms.edge[row]], sections[arms.edge[other]]
-    size = beyond.width + section.depth * abs(top @ other_across) + section.width * abs(across @ other_across)
-    beside = size / 2 / max(abs(along @ other_across), 1e-9)
-    before = (beyond.depth * abs(other_top @ along) + beyond.width * abs(other_across @ along)) / 2
-    return float(min(beside, before) if away @ along <= 0 else beside)
+    breadth = sections[arms.edge[other]].width
+    beside = _beside(arms, rows, tops, sections, breadth)
+    before = _ahead(arms, rows, tops, sections, (breadth, 0.0))
+    backwards = arms.direction[other] @ arms.direction[row] <= 0
+    return min(beside, before) if backwards else beside
+
+
+def _past_hold(arms: Arms, rows: tuple[int, int], tops: Floats, sections: list[AnySection], joint: Joint) -> float:
+    """Distance along a sill's arm from which it is clear of what holds another member: beside it, or beyond its end."""
+    hold = joint.hold(sections[arms.edge[rows[1]]])
+    return min(_beside(arms, rows, tops, sections, hold[0]), _ahead(arms, rows, tops, sections, hold))
+
+
+def _beside(arms: Arms, rows: tuple[int, int], tops: Floats, sections: list[AnySection], breadth: float) -> float:
+    """Where the whole sill is on one side of a layer of this breadth about another arm's plane."""
+    (row, other), section = rows, sections[arms.edge[rows[0]]]
+    along, top = arms.direction[row], tops[arms.edge[row]]
+    across, other_across = np.cross(along, top), np.cross(arms.direction[other], tops[arms.edge[other]])
+    size = breadth + section.depth * abs(top @ other_across) + section.width * abs(across @ other_across)
+    return float(size / 2 / max(abs(along @ other_across), 1e-9))
+
+
+def _ahead(
+    arms: Arms, rows: tuple[int, int], tops: Floats, sections: list[AnySection], size: tuple[float, float]
+) -> float:
+    """How far a body of this breadth and length along another arm, as deep as its member, reaches along the sill."""
+    (row, other), (breadth, length) = rows, size
+    along, away, other_top = arms.direction[row], arms.direction[other], tops[arms.edge[other]]
+    across, depth = np.cross(away, other_top), sections[arms.edge[other]].depth
+    half = (depth * abs(other_top @ along) + breadth * abs(across @ along)) / 2
+    return float(length * max(away @ along, 0.0) + half)

@@ -65,9 +65,7 @@ def make_solids(nodes: NodeParts, joints: tuple[Joint, ...]) -> tuple[Solid, ...
     SolidError
         If the solid kernel's result fails a check.
     """
-    return tuple(
-        make_solid(joint.carve(), int(joint.bore > 0), mark) for joint, mark in zip(joints, nodes.marks, strict=True)
-    )
+    return tuple(make_solid(joint.carve(), joint.genus, mark) for joint, mark in zip(joints, nodes.marks, strict=True))
 
 
 def make_solid(carving: Carving, genus: int, mark: str) -> Solid:

@@ -29,6 +29,7 @@ from isomould.documents.shop.rows import Row, data_rows
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room, wrap
 from isomould.documents.shop.view import SCALES, View, scale_text
 from isomould.documents.table import Table
+from isomould.parts.details.joint import Fin
 from isomould.parts.sections import Polygons, SolidViews
 from isomould.parts.supports import Base
 
@@ -38,17 +39,23 @@ _HATCH = 2.5
 _INSIDE, _APART = 3.0, 7.0
 """How far views may reach to the left into the margin of the frame, and what keeps plan and section apart, mm."""
 _ARM_HEADING = ("Arm", "Azimuth °", "Elev. °", "Family", "Section", "Set-back")
+_CROSS = 1.5
 
 
 @dataclass(frozen=True, eq=False)
 class NodeDrawing:
-    """What is drawn of a node class: its row in the schedule, its solid, set-backs of its arms, notes, its base."""
+    """What is drawn of a node class: its row in the schedule, its solid, set-backs of its arms, notes, its base.
+
+    `fins` are the marks of the fins on its arms, empty for none; `fin` is that of arm 1.
+    """
 
     row: Row
     views: SolidViews
     set_backs: tuple[str, ...]
     notes: tuple[str, ...]
     base: Base | None = None
+    fins: tuple[str, ...] = ()
+    fin: Fin | None = None
 
 
 def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: int, sheets: int) -> Page:
@@ -79,7 +86,9 @@ def _arm_rows(node: NodeDrawing) -> list[tuple[str, ...]]:
     rows = [
         (str(k), *(node.row[name.format(k)] for name in names), back) for k, back in enumerate(node.set_backs, start=1)
     ]
-    return [_ARM_HEADING, *rows]
+    if not any(node.fins):
+        return [_ARM_HEADING, *rows]
+    return [(*row, fin) for row, fin in zip([_ARM_HEADING, *rows], ("Fin", *node.fins), strict=True)]
 
 
 def _notes(notes: Sequence[str], left: float, top: float) -> list[Text]:
@@ -111,13 +120,17 @@ def _captioned(words: str, items: list[Item]) -> list[Item]:
 
 def _section(node: NodeDrawing, view: View) -> list[Item]:
     """Draw the section through the axis and arm 1, which lies to the right."""
-    low, high = (view.place(end(np.concatenate(node.views.elevation), axis=0)) for end in (np.min, np.max))
+    corners, cut = np.concatenate(node.views.elevation), np.concatenate(node.views.upright)
+    low, high = (view.place(end(corners, axis=0)) for end in (np.min, np.max))
+    radius = float(node.row["drum_diameter_mm"]) / 2 / view.scale
+    foot, head = (view.place(end(cut, axis=0)) for end in (np.min, np.max))
     elevation = np.radians(float(node.row["elevation_1_deg"]))
     way = np.array([np.cos(elevation), np.sin(elevation)])
     start, reach = view.place(np.zeros(2)), float(high[0] - view.at[0]) + _STUB
     level = np.array([[start[0], start[1]], [start[0] + reach / way[0], start[1]]])
-    diameter = Span(0.0, float(high[0] - low[0]), f"Ø{node.row['drum_diameter_mm']}")
-    height = Span(0.0, float(high[1] - low[1]), node.row["drum_height_mm"])
+    over, beside = float(head[1] - high[1]), float(low[0] - view.at[0] + radius)
+    diameter = Span(0.0, 2 * radius, f"Ø{node.row['drum_diameter_mm']}", (over, over))
+    height = Span(0.0, float(head[1] - foot[1]), node.row["drum_height_mm"], (beside, beside))
     return [
         *(view.outline(polygon) for polygon in node.views.elevation),
         *(view.outline(polygon) for polygon in node.views.upright),
@@ -125,10 +138,31 @@ def _section(node: NodeDrawing, view: View) -> list[Item]:
         Line("centre", np.array([[view.at[0], low[1] - 4], [view.at[0], high[1] + 4]])),
         Line("centre", np.array([start, start + reach / way[0] * way])),
         *([Line("thin", level)] if abs(elevation) > 1e-9 else []),
-        *stack(above(np.array([low[0], high[1]])), [diameter]),
-        *stack(left_of(low), [height]),
+        *(_fin(node.fin, float(elevation), view) if node.fin else []),
+        *stack(above(np.array([view.at[0] - radius, high[1]])), [diameter]),
+        *stack(left_of(np.array([low[0], foot[1]])), [height]),
         _arm_text(start + (reach + 1.5) / way[0] * way, float(elevation), "1"),
     ]
+
+
+def _fin(fin: Fin, elevation: float, view: View) -> list[Item]:
+    """Draw the fin of arm 1 behind the plane of the section, with its holes."""
+    side = np.array([1.0, -1.0 if elevation < 0 else 1.0])
+    outline = view.outline(_upright(np.array(fin.corners) * side, elevation))
+    items: list[Item] = [outline]
+    for hole in fin.holes:
+        centre = view.place(_upright(np.array([[hole.x, hole.y]]), elevation))[0]
+        reach = hole.diameter / 2 / view.scale
+        arms = np.eye(2) * (reach + _CROSS)
+        items += [Arc("outline", point(centre), reach)]
+        items += [Line("centre", np.array([centre - arm, centre + arm])) for arm in arms]
+    return items
+
+
+def _upright(points: Floats, elevation: float) -> Floats:
+    """Turn points (n, 2) from the frame of arm 1's member into the section: outwards, and along the axis."""
+    sine, cosine = np.sin(elevation), np.cos(elevation)
+    return points @ np.array([[cosine, sine], [-sine, cosine]])
 
 
 def _arm_text(at: Floats, turn: float, text: str) -> Text:

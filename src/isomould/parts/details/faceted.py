@@ -16,8 +16,18 @@ from isomould.errors import Refused
 from isomould.form.mesh import Family
 from isomould.parts.catalogue import AnySection, RhsSection
 from isomould.parts.details.bolting import Bolting, bolt_members
-from isomould.parts.details.joint import Carving, Joint, Limit, MemberEnd, refuse_limits, smallest_diameter
-from isomould.parts.hardware import Item
+from isomould.parts.details.joint import (
+    Carving,
+    Counts,
+    Joint,
+    Limit,
+    MemberEnd,
+    along_arm,
+    refuse_limits,
+    share,
+    smallest_diameter,
+)
+from isomould.parts.hardware import gather
 from isomould.parts.kernel import OVERLAP, block, cylinder, disc, facets, join
 from isomould.parts.nodes import NodeArms, NodeParts
 from isomould.parts.settings import FacetedSettings, MemberSettings
@@ -57,14 +67,10 @@ class FacetedJoint(Joint):
         return round(self.distance * 1000)
 
     @property
-    def counts(self) -> tuple[int, int, int]:
-        """Slots, facets, holes."""
-        return 0, len(self.bolting), self.threads + int(self.bore > 0)
-
-    @property
-    def threads(self) -> int:
-        """A tapped hole for every bolt."""
-        return sum(len(bolting.levels) for bolting in self.bolting)
+    def counts(self) -> Counts:
+        """Facets, a tapped hole for every bolt, and the bore."""
+        threads = sum(len(bolting.levels) for bolting in self.bolting)
+        return Counts(facets=len(self.bolting), holes=threads + int(self.bore > 0), threads=threads)
 
     @property
     def sizes(self) -> dict[str, Any]:
@@ -155,16 +161,6 @@ def _half_depth(bolting: dict[int, Bolting]) -> float:
     return next(iter(bolting.values())).section.depth / 2
 
 
-def _sharing(arms: NodeArms, widths: Floats) -> Floats:
-    """Distance (v,) from the axis at which a facet ends where its neighbours' half planes begin: `(w/2 + 3)/tan(γ/2)`.
-
-    With equal distances of the facets it keeps facets and members on their sides of the planes halfway between.
-    """
-    wider = np.maximum(widths, np.roll(widths, -1))
-    after = wider / np.tan(np.minimum(arms.held_gap, np.pi) / 2)
-    return np.maximum(after, np.roll(after, 1))
-
-
 def _cut_free(arms: NodeArms, widths: Floats, half_depth: float) -> float:
     """Smallest distance of all facets at which no facet's plane cuts another facet.
 
@@ -203,7 +199,7 @@ def _needed_distance(arms: NodeArms, bolting: dict[int, Bolting], settings: Face
     sine, cosine = np.abs(np.sin(arms.elevation)), np.cos(arms.elevation)
     widths, half = _half_widths(arms, bolting, settings), _half_depth(bolting)
     depth, level = _hole_ends(arms, bolting)
-    beside = (_sharing(arms, widths) + half * sine) / cosine
+    beside = (share(arms, widths) + half * sine) / cosine
     holes = depth + (_needed_hole_reach(arms, bolting, settings) + level * sine) / cosine
     return max(float(beside.max()), float(holes.max()), _cut_free(arms, widths, half))
 
@@ -232,7 +228,7 @@ def _joint(
         high=high,
         clearance=settings.end_gap,
         limits=(*_limits(arms, sizes, bolting, settings), *(limit for b in dict.fromkeys(each) for limit in b.limits)),
-        hardware=_gathered(each),
+        hardware=gather(item for bolting in each for item in bolting.hardware),
         stack=((diameter / 2, high),),
         distance=distance,
         border=settings.facet_border,
@@ -252,7 +248,7 @@ def _limits(
     widths, half = _half_widths(arms, bolting, settings), _half_depth(bolting)
     depth, level = _hole_ends(arms, bolting)
     inner = [
-        (distance * cosine - half * sine, _sharing(arms, widths)),
+        (distance * cosine - half * sine, share(arms, widths)),
         ((distance - depth) * cosine - level * sine, _needed_hole_reach(arms, bolting, settings)),
     ]
     beside, holes = (min(zip(value.tolist(), least.tolist(), strict=True), key=_margin) for value, least in inner)
@@ -268,26 +264,11 @@ def _margin(pair: tuple[float, float]) -> float:
     return pair[0] - pair[1]
 
 
-def _gathered(bolting: tuple[Bolting, ...]) -> tuple[Item, ...]:
-    """Hardware of all arms of a node, equal items counted together."""
-    found: dict[tuple[str, str, str], int] = {}
-    for item in (item for each in bolting for item in each.hardware):
-        key = (item.item, item.size, item.standard)
-        found[key] = found.get(key, 0) + item.quantity
-    return tuple(Item(*key, quantity) for key, quantity in found.items())
-
-
-def _placed(body: m3.Manifold, joint: FacetedJoint, arm: int) -> m3.Manifold:
-    """Turn a body with x along a member, y across and z along its depth into the node's frame."""
-    turn = (0.0, -float(np.degrees(joint.arms.elevation[arm])), float(np.degrees(joint.arms.azimuth[arm])))
-    return body.rotate(turn)
-
-
 def _beyond(joint: FacetedJoint, axis: Floats) -> m3.Manifold:
     """All of the blank that lies beyond the facet perpendicular to an axis."""
     arm = int(np.argmax(_axes(joint.arms) @ axis))
     wide = 2 * (joint.radius + max(joint.high, -joint.low) + OVERLAP)
-    return _placed(block((joint.distance, -wide, -wide), (joint.distance + wide, wide, wide)), joint, arm)
+    return along_arm(block((joint.distance, -wide, -wide), (joint.distance + wide, wide, wide)), joint.arms, arm)
 
 
 def _holes(joint: FacetedJoint, arm: int) -> list[m3.Manifold]:
@@ -295,7 +276,7 @@ def _holes(joint: FacetedJoint, arm: int) -> list[m3.Manifold]:
     bolting = joint.bolting[arm]
     start, end = joint.distance - bolting.hole_depth, joint.distance + OVERLAP
     hole = cylinder(bolting.bolt.diameter / 2, start, end).rotate((0.0, 90.0, 0.0))
-    return [_placed(hole.translate((0.0, 0.0, level)), joint, arm) for level in bolting.levels]
+    return [along_arm(hole.translate((0.0, 0.0, level)), joint.arms, arm) for level in bolting.levels]
 
 
 def _volume(joint: FacetedJoint, axes: Floats) -> float:

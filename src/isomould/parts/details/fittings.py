@@ -1,4 +1,4 @@
-"""Made parts that go with nodes and members: caps of slotted drums, plates in the ends of hollow sections."""
+"""Made parts that go with nodes and members: caps of slotted drums, plates in hollow sections, fins of hubs."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -6,14 +6,16 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Floats
+from isomould.form.mesh import Family
 from isomould.parts.catalogue import AnySection, RhsSection
 from isomould.parts.details.caps import Cap
-from isomould.parts.details.joint import Joint
+from isomould.parts.details.joint import Fin, Joint
 from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.features import EndPlate, Hole
 from isomould.parts.marks import marks
 from isomould.parts.members import MemberParts, MemberShape
-from isomould.parts.nodes import NodeParts
+from isomould.parts.nodes import NodeArms, NodeParts
+from isomould.parts.outline import area
 from isomould.parts.solid import Solid, make_solid
 
 
@@ -27,33 +29,58 @@ class Fitting:
         The size as a shop writes it: diameter, or depth and width, by thickness.
     quantity : int
         In the whole design.
-    volume, surface : float, mm³ and mm²
+    volume : float, mm³
+    surface : float, mm², optional
+        What is coated of it; nothing for fins, which are coated on their hubs.
     solid : Solid, optional
         Of a turned part, in its own frame.
     outline : (n, 2) float and bulges (n,), optional
-        Of a flat part, its x across and its y along the section's depth.
+        Of a flat part, its y along the section's depth.
+    thickness : float, mm
+        Of a flat part.
     holes : tuple of Hole
+    fin : Fin, optional
+        What a fin is made of.
     """
 
     mark: str
-    kind: Literal["cap", "end-plate"]
+    kind: Literal["cap", "end-plate", "fin"]
     size: str
     quantity: int
     volume: float
-    surface: float
+    surface: float | None
     solid: Solid | None = None
     outline: tuple[Floats, Floats] | None = None
+    thickness: float = 0.0
     holes: tuple[Hole, ...] = ()
+    fin: Fin | None = None
 
 
 def make_fittings(nodes: NodeParts, joints: tuple[Joint, ...], members: MemberParts) -> tuple[Fitting, ...]:
-    """Give the caps of all nodes and the end plates of all members."""
+    """Give the caps and fins of all nodes and the end plates of all members."""
     caps = {joint.cap for joint in joints if isinstance(joint, SlottedJoint) and joint.cap}
-    plates = _end_plates(members)
-    names = iter(marks("F", len(caps) + len(plates)))
+    plates, fins = _end_plates(members), count_fins(nodes, joints)
+    names = iter(marks("F", len(caps) + len(plates) + len(fins)))
     count = 2 * int(nodes.classes.quantity.sum())
     turned = [_cap(next(names), cap, count) for cap in caps]
-    return (*turned, *(_plate(next(names), *key, quantity) for key, quantity in plates))
+    inside = [_plate(next(names), *key, quantity) for key, quantity in plates]
+    return (*turned, *inside, *(_fin(next(names), fin, quantity) for fin, quantity in fins.items()))
+
+
+def count_fins(nodes: NodeParts, joints: tuple[Joint, ...]) -> dict[Fin, int]:
+    """Count the fins of all nodes, in the order of the nodes and their arms: two per arm."""
+    found: dict[Fin, int] = {}
+    for joint, quantity in zip(joints, nodes.classes.quantity.tolist(), strict=True):
+        for fin in joint.fins:
+            found[fin] = found.get(fin, 0) + 2 * quantity
+    return found
+
+
+def name_fins(joint: Joint, arms: NodeArms, fittings: tuple[Fitting, ...]) -> dict[int, str]:
+    """Give the mark of the fins by the number of their arm, counted from 1; none of details without, and of sills."""
+    named = {fitting.fin: fitting.mark for fitting in fittings if fitting.fin}
+    held = (np.flatnonzero(arms.family != Family.SILL) + 1).tolist()
+    return dict(zip(held, (named[fin] for fin in joint.fins), strict=False))
 
 
 def _end_plates(members: MemberParts) -> list[tuple[tuple[RhsSection, EndPlate], int]]:
@@ -79,7 +106,7 @@ def _cap(mark: str, cap: Cap, quantity: int) -> Fitting:
 
 def _plate(mark: str, section: RhsSection, plate: EndPlate, quantity: int) -> Fitting:
     depth, width = section.depth - 2 * section.wall, section.width - 2 * section.wall
-    area = section.void - plate.hole_area
+    face = section.void - plate.hole_area
     radius = section.radii[1]
     around = 2 * (depth + width) - (8 - 2 * np.pi) * radius + len(plate.bolts) * np.pi * plate.diameter
     return Fitting(
@@ -87,10 +114,29 @@ def _plate(mark: str, section: RhsSection, plate: EndPlate, quantity: int) -> Fi
         kind="end-plate",
         size=f"{depth:g}x{width:g}x{plate.thickness:g}",
         quantity=quantity,
-        volume=area * plate.thickness,
-        surface=float(2 * area + around * plate.thickness),
+        volume=face * plate.thickness,
+        surface=float(2 * face + around * plate.thickness),
         outline=_rounded(width / 2, depth / 2, radius),
+        thickness=plate.thickness,
         holes=tuple(Hole(0.0, y, plate.diameter) for y in plate.bolts),
+    )
+
+
+def _fin(mark: str, fin: Fin, quantity: int) -> Fitting:
+    outline = np.array(fin.corners)
+    length, height = np.ptp(outline, axis=0).tolist()
+    drilled = sum(hole.area for hole in fin.holes)
+    return Fitting(
+        mark=mark,
+        kind="fin",
+        size=f"{length:g}x{height:g}x{fin.thickness:g}",
+        quantity=quantity,
+        volume=(area(outline) - drilled) * fin.thickness,
+        surface=None,
+        outline=(outline, np.zeros(len(outline))),
+        thickness=fin.thickness,
+        holes=fin.holes,
+        fin=fin,
     )
 
 

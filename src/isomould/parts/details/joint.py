@@ -32,6 +32,29 @@ class Limit:
         return self.value - self.required
 
 
+@dataclass(frozen=True)
+class Counts:
+    """What is worked into a node: slots, facets, fins on it, holes with the bore, threads among them."""
+
+    slots: int = 0
+    facets: int = 0
+    fins: int = 0
+    holes: int = 0
+    threads: int = 0
+
+
+@dataclass(frozen=True)
+class Fin:
+    """A flat plate on a hub. Lengths in mm, x from the work point along the member that it holds, y to the outside.
+
+    It is drawn for an arm that rises or is level; turned over about x it is the one for an arm that falls.
+    """
+
+    thickness: float
+    corners: tuple[tuple[float, float], ...]
+    holes: tuple[Hole, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class MemberEnd:
     """What a node asks of the start of a member: x from the work point along the system line, y to the outside.
@@ -141,13 +164,18 @@ class Joint(ABC):
 
     @property
     @abstractmethod
-    def counts(self) -> tuple[int, int, int]:
-        """Slots, facets, holes."""
+    def counts(self) -> Counts:
+        """What is worked into the node."""
 
     @property
-    def threads(self) -> int:
-        """How many of the holes are tapped."""
-        return 0
+    def genus(self) -> int:
+        """How many holes go through its solid."""
+        return int(self.bore > 0)
+
+    @property
+    def fins(self) -> tuple[Fin, ...]:
+        """The fin of every arm; two of each stand on the node."""
+        return ()
 
     @property
     @abstractmethod
@@ -158,6 +186,14 @@ class Joint(ABC):
     def weld_length(self) -> float:
         """Length of the welds that hold the members."""
         return 0.0
+
+    def turned_volume(self, volume: float) -> float:
+        """Give what is turned from a bar of a solid of this volume, mm³: all of it, where nothing is welded on."""
+        return volume
+
+    def hold(self, section: AnySection) -> tuple[float, float]:
+        """Give breadth and reach from the work point, mm, of what holds a member of this section outside the drum."""
+        return section.width, 0.0
 
     @abstractmethod
     def end(self, section: AnySection, elevation: float) -> MemberEnd:
@@ -204,6 +240,28 @@ def smallest_diameter(needed: float, asked: float | None, step: float) -> float:
             f"Give {np.ceil(needed):g} mm or more, or leave the field out for the smallest drum that fits.",
         )
     return asked
+
+
+def share(arms: NodeArms, widths: Floats) -> Floats:
+    """Distance (v,) from the axis where parts of these half widths end, before their neighbours' half planes begin.
+
+    `(w/2)/tan(γ/2)`: from there on they stay on their sides of the planes halfway between the arms.
+    """
+    wider = np.maximum(widths, np.roll(widths, -1))
+    after = wider / np.tan(np.minimum(arms.held_gap, np.pi) / 2)
+    return np.maximum(after, np.roll(after, 1))
+
+
+def along_arm(body: m3.Manifold, arms: NodeArms, arm: int) -> m3.Manifold:
+    """Turn a body with x along a member, y across and z along its depth into the node's frame."""
+    return body.rotate((0.0, -float(np.degrees(arms.elevation[arm])), float(np.degrees(arms.azimuth[arm]))))
+
+
+def body_corners(section: AnySection, elevation: float, shoulder: float) -> tuple[float, float]:
+    """Levels at which the top and bottom edges of a member meet a line parallel to the axis, at this distance."""
+    sine, cosine = np.sin(elevation), np.cos(elevation)
+    top, bottom = ((side * section.depth / 2 + shoulder * sine) / cosine for side in (1, -1))
+    return float(top), float(bottom)
 
 
 def turned(points: Iterable[tuple[float, float]], elevation: float) -> Floats:

@@ -16,7 +16,17 @@ from isomould.errors import Refused
 from isomould.form.mesh import Family
 from isomould.parts.catalogue import AnySection, PlateSection
 from isomould.parts.details.caps import Cap, cap_needs, hold_plates
-from isomould.parts.details.joint import Carving, Joint, Limit, MemberEnd, refuse_limits, smallest_diameter, turned
+from isomould.parts.details.joint import (
+    Carving,
+    Counts,
+    Joint,
+    Limit,
+    MemberEnd,
+    body_corners,
+    refuse_limits,
+    smallest_diameter,
+    turned,
+)
 from isomould.parts.kernel import OVERLAP, block, cylinder, disc, join
 from isomould.parts.nodes import NodeArms, NodeParts
 from isomould.parts.settings import MemberSettings, SlottedSettings
@@ -65,9 +75,9 @@ class SlottedJoint(Joint):
         return round(self.height * 1000)
 
     @property
-    def counts(self) -> tuple[int, int, int]:
-        """Slots, facets, holes."""
-        return len(self.slot_widths), 0, int(self.bore > 0)
+    def counts(self) -> Counts:
+        """Slots and the bore."""
+        return Counts(slots=len(self.slot_widths), holes=int(self.bore > 0))
 
     @property
     def sizes(self) -> dict[str, Any]:
@@ -232,20 +242,13 @@ def _height(arms: NodeArms, section: AnySection, shoulder: float) -> float:
 def _end_points(joint: SlottedJoint, section: AnySection, elevation: float) -> list[tuple[float, float]]:
     """Points (r, z) of a plate's end from top to bottom: r from the node axis, z along it."""
     half, shoulder, floor = joint.height / 2, joint.shoulder, joint.plate_end
-    top, bottom = _body_corners(joint, section, elevation)
+    top, bottom = body_corners(section, elevation, shoulder)
     notch = joint.cap.notch(half, section.width) if joint.cap else []
     tongue = [(floor, half), (floor, -half)]
     upper = [(shoulder, half)] if top - half > _STEP else []
     lower = [(shoulder, -half)] if -half - bottom > _STEP else []
     under = [(r, -z) for r, z in reversed(notch)]
     return [(shoulder, top), *upper, *notch, *tongue, *under, *lower, (shoulder, bottom)]
-
-
-def _body_corners(joint: SlottedJoint, section: AnySection, elevation: float) -> tuple[float, float]:
-    """Levels at which the plate's top and bottom edges meet the shoulder's line."""
-    sine, cosine = np.sin(elevation), np.cos(elevation)
-    top, bottom = ((side * section.depth / 2 + joint.shoulder * sine) / cosine for side in (1, -1))
-    return float(top), float(bottom)
 
 
 def _slots(joint: SlottedJoint) -> list[m3.Manifold]:

@@ -33,8 +33,8 @@ Arm = tuple[float, float, str]
 """Azimuth and elevation (rad) and section of an arm that a node holds."""
 
 
-def _arms(delivery: Delivery) -> dict[str, list[Arm]]:
-    """Give the arms that are held, all but sills, by mark."""
+def held_arms(delivery: Delivery, *, sills: bool = False) -> dict[str, list[Arm]]:
+    """Give the arms that are held, all but sills (or those too), by mark."""
     table = delivery.table("nodes")
     found: dict[str, list[Arm]] = {mark: [] for mark in texts(table, "mark")}
     count = sum(name.startswith("azimuth_") for name in table.columns)
@@ -42,7 +42,7 @@ def _arms(delivery: Delivery) -> dict[str, list[Arm]]:
         azimuth, elevation = (np.radians(numbers(table, f"{n}_{k}_deg", blank=True)) for n in ("azimuth", "elevation"))
         rows = zip(found, azimuth.tolist(), elevation.tolist(), _words(delivery, k), strict=True)
         for mark, turn, rise, (family, section) in rows:
-            if family not in {"", "sill"}:
+            if family and (sills or family != "sill"):
                 found[mark].append((turn, rise, section))
     return found
 
@@ -62,7 +62,7 @@ def _asked(delivery: Delivery, detail: str) -> Json:
 def slot_webs(delivery: Delivery) -> Measured:
     """By how much the web between two slots, drawn in the plane, is less than asked for."""
     node = _asked(delivery, "slotted")
-    short = {mark: float(node["min_web_mm"]) - _web(delivery, arms) for mark, arms in _arms(delivery).items()}
+    short = {mark: float(node["min_web_mm"]) - _web(delivery, arms) for mark, arms in held_arms(delivery).items()}
     return worst_of(list(short.values()), list(short))
 
 
@@ -73,7 +73,7 @@ def _web(delivery: Delivery, arms: list[Arm]) -> float:
     for azimuth, _, section in arms:
         half = (float(sections[section]["thickness"]) + float(node["slot_clearance_mm"])) / 2
         corners = np.array([[floor, -half, 0.0], [rim, -half, 0.0], [rim, half, 0.0], [floor, half, 0.0]])
-        slot = shapely.Polygon((corners @ _frame(azimuth, 0.0).T)[:, :2])
+        slot = shapely.Polygon((corners @ arm_frame(azimuth, 0.0).T)[:, :2])
         nose = shapely.Point(floor * np.cos(azimuth), floor * np.sin(azimuth)).buffer(half)
         slots.append(shapely.union(slot, nose) if node["slot_end"] == "round" else slot)
     return min((float(shapely.distance(a, b)) for a, b in combinations(slots, 2)), default=np.inf)
@@ -82,7 +82,7 @@ def _web(delivery: Delivery, arms: list[Arm]) -> float:
 def slots(delivery: Delivery) -> Measured:
     """How far corners of a node's solid stand inside a slot or its walls are away from where they should be."""
     _asked(delivery, "slotted")
-    arms = _arms(delivery)
+    arms = held_arms(delivery)
     off = {mark: _slots_off(delivery, solid, arms[mark]) for mark, solid in delivery.solids.items()}
     return worst_of(list(off.values()), list(off), none="no solids are delivered")
 
@@ -91,7 +91,7 @@ def _slots_off(delivery: Delivery, solid: Solid, arms: list[Arm]) -> float:
     node, sections = delivery.design.raw["node"], delivery.design.raw["member"]["sections"]
     off = [
         _slot_off(
-            solid.vertices @ _frame(azimuth, 0.0),
+            solid.vertices @ arm_frame(azimuth, 0.0),
             float(node["slot_floor_mm"]),
             (float(sections[section]["thickness"]) + float(node["slot_clearance_mm"])) / 2,
         )
@@ -108,7 +108,7 @@ def _slot_off(points: Floats, floor: float, half: float) -> float:
     return max(inside, *map(float, walls))
 
 
-def _frame(azimuth: float, elevation: float) -> Floats:
+def arm_frame(azimuth: float, elevation: float) -> Floats:
     """Give the axes of an arm as columns: along, across, along the depth."""
     s, c, up, level = np.sin(azimuth), np.cos(azimuth), np.sin(elevation), np.cos(elevation)
     return np.array([[level * c, level * s, up], [-s, c, 0.0], [-up * c, -up * s, level]]).T
@@ -117,11 +117,11 @@ def _frame(azimuth: float, elevation: float) -> Floats:
 def facets(delivery: Delivery) -> Measured:
     """How far a facet is from its place, or short of the member's end with its border (as a length)."""
     node = _asked(delivery, "faceted")
-    distance, arms = float(node["facet_distance_mm"]), _arms(delivery)
+    distance, arms = float(node["facet_distance_mm"]), held_arms(delivery)
     off, names = list[float](), list[str]()
     for mark, solid in delivery.solids.items():
         for azimuth, elevation, section in arms[mark]:
-            points, face = solid.vertices @ _frame(azimuth, elevation), _face(delivery, section)
+            points, face = solid.vertices @ arm_frame(azimuth, elevation), _face(delivery, section)
             off.append(_facet_off(points, solid, distance, face))
             names.append(mark)
     return worst_of(off, names, none="no solids are delivered")
@@ -148,7 +148,7 @@ def threaded_holes(delivery: Delivery) -> Measured:
     """By how much two threaded holes of a node, or one and the bore, are nearer than asked for."""
     node = _asked(delivery, "faceted")
     off, names = list[float](), list[str]()
-    for mark, arms in _arms(delivery).items():
+    for mark, arms in held_arms(delivery).items():
         short = [float(node["min_web_mm"]) - clear for clear in _hole_distances(node, arms)]
         off.append(max(short, default=0.0))
         names.append(mark)
@@ -165,7 +165,7 @@ def _hole_distances(node: Json, arms: list[Arm]) -> Iterator[float]:
 
 def _segments(node: Json, arm: Arm) -> Iterator[tuple[Floats, float]]:
     azimuth, elevation, section = arm
-    frame, end, distance = _frame(azimuth, elevation), node["ends"][section], float(node["facet_distance_mm"])
+    frame, end, distance = arm_frame(azimuth, elevation), node["ends"][section], float(node["facet_distance_mm"])
     for level in end["bolts_mm"]:
         ends = np.array([[distance - float(end["hole_depth_mm"]), 0.0, level], [distance, 0.0, level]])
         yield ends @ frame.T, float(end["thread_mm"]) / 2
@@ -193,7 +193,9 @@ def _point_distance(point: Floats, segment: Floats) -> float:
 def member_ends(delivery: Delivery) -> Measured:
     """How far the ends of the members' outlines are from what the nodes there hold."""
     table = delivery.table("members")
-    measure = {"slotted": _tongue_off, "faceted": _bolted_off}[delivery.design.raw["node"]["detail"]]
+    measure = {"slotted": _tongue_off, "faceted": _bolted_off, "finned": _forked_off}[
+        delivery.design.raw["node"]["detail"]
+    ]
     marks = [m for m, family in zip(texts(table, "mark"), texts(table, "family"), strict=True) if family != "sill"]
     off = [measure(delivery, mark, side) for mark in marks for side in ("start", "end")]
     return worst_of(off, [f"{mark} {side}" for mark in marks for side in ("start", "end")])
@@ -261,6 +263,18 @@ def _bolted_off(delivery: Delivery, mark: str, side: str) -> float:
     same = len(levels) == len(end["bolts_mm"])
     off = np.abs(np.subtract(levels, sorted(end["bolts_mm"]))).max() if same else np.inf
     return float(max(cut, off, *starts))
+
+
+def _forked_off(delivery: Delivery, mark: str, side: str) -> float:
+    """In the half-plane of the node: the plate ends upright beside the hub; in the plate: the bolts' holes."""
+    node, points = delivery.design.raw["node"], _contour(delivery, mark, side)
+    plate = _in_node(points, np.radians(_value(delivery, mark, f"end_angle_{side}_deg")))
+    cut = np.sort(np.array(plate.exterior.coords)[:-1, 0])[:2]
+    holes = [_from(delivery, mark, side, box).mean(axis=0) for box in _openings(delivery.members[mark])]
+    wanted = [(float(node["bolt_distance_mm"]) + x, y) for x in node["bolt_columns_mm"] for y in node["bolt_levels_mm"]]
+    there = sorted(tuple(hole) for hole in np.round(holes, 6).tolist() if hole[0] < max(wanted)[0] + 1.0)
+    off = np.abs(np.subtract(there, sorted(wanted))).max() if len(there) == len(wanted) else np.inf
+    return float(max(np.abs(cut - float(node["shoulder_mm"])).max(), off))
 
 
 def _openings(drawing: Drawing) -> list[Floats]:

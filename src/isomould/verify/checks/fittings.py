@@ -1,4 +1,4 @@
-"""V39: caps, end plates, bolts, nuts and washers are as many as nodes and members need, and weigh what they should."""
+"""V39: caps, end plates, fins and hardware are as many as nodes and members need, and weigh what they should."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def _need_fittings(delivery: Delivery) -> None:
 
 
 def masses(delivery: Delivery) -> Measured:
-    """Mass of caps from their solids, of end plates from their outlines and the thickness that the design gives."""
+    """Mass of caps from their solids, of flat fittings from their outlines and the thickness that the design gives."""
     _need_fittings(delivery)
     table = delivery.table("fittings")
     claimed = dict(zip(texts(table, "mark"), numbers(table, "mass_kg").tolist(), strict=True))
@@ -35,9 +35,10 @@ def _own_masses(delivery: Delivery) -> dict[str, float]:
 
 
 def _thickness(delivery: Delivery, mark: str) -> float:
-    """Last number of the size of a fitting, held to the design's end plates."""
+    """Last number of the size of a fitting, held to the design's end plates and fins."""
+    node = delivery.design.raw["node"]
     size = number(pairs(delivery.table("fittings"), "mark", "size")[mark].split("x")[-1])
-    known = {float(end["thickness_mm"]) for end in delivery.design.raw["node"]["ends"].values()}
+    known = {float(end["thickness_mm"]) for end in node.get("ends", {}).values()} | {node.get("fin_thickness_mm")}
     return size if size in known else np.nan
 
 
@@ -54,9 +55,9 @@ def caps(delivery: Delivery) -> Measured:
 
 
 def quantities(delivery: Delivery) -> Measured:
-    """Two caps, a bolt, a nut and two washers per node; or as many bolts and washers as end plates have holes."""
+    """Two caps, a bolt, a nut and two washers per node; or what the holes of end plates or of members need."""
     _need_fittings(delivery)
-    problems = [fault for check in (_per_node, _per_class) for fault in check(delivery)]
+    problems = [fault for check in (_per_node, _per_class, _per_arm) for fault in check(delivery)]
     return faults(delivery.table("hardware").rows, problems)
 
 
@@ -68,7 +69,8 @@ def _total(delivery: Delivery, item: str) -> float:
 
 def _per_node(delivery: Delivery) -> list[str]:
     """Compare what is bought and made in all with nodes and members."""
-    wanted = _from_caps(delivery) if "ends" not in delivery.design.raw["node"] else _from_plates(delivery)
+    needs = {"slotted": _from_caps, "faceted": _from_plates, "finned": _from_forks}
+    wanted = needs[delivery.design.raw["node"]["detail"]](delivery)
     fittings = delivery.table("fittings")
     made = float(numbers(fittings, "quantity").sum())
     found = {"bolt": _total(delivery, "bolt"), "washer": _total(delivery, "washer"), "nut": _total(delivery, "nut")}
@@ -88,6 +90,31 @@ def _from_plates(delivery: Delivery) -> dict[str, float]:
     held = [(section, quantity) for section, family, quantity in rows if family != "sill"]
     bolts = float(sum(2 * quantity * len(ends[section]["bolts_mm"]) for section, quantity in held))
     return {"bolt": bolts, "washer": bolts, "nut": 0.0, "fitting": float(2 * sum(q for _, q in held))}
+
+
+def _from_forks(delivery: Delivery) -> dict[str, float]:
+    """Two fins per end of a member but sills, and a bolt with its nut and two washers in each hole of a member."""
+    table = delivery.table("members")
+    count, holes = numbers(table, "quantity"), numbers(table, "holes")
+    held = np.array([family != "sill" for family in texts(table, "family")])
+    bolts = float((count * holes).sum())
+    return {"bolt": bolts, "nut": bolts, "washer": 2 * bolts, "fitting": float(4 * count[held].sum())}
+
+
+def _per_arm(delivery: Delivery) -> list[str]:
+    """Compare the fins that the arms of the nodes have with the list of fittings, mark by mark."""
+    if delivery.design.raw["node"]["detail"] != "finned":
+        return []
+    table, nodes = delivery.table("node_fittings"), pairs(delivery.table("nodes"), "mark", "quantity")
+    marks, fitted = texts(table, "mark"), texts(table, "fitting")
+    pieces, total = numbers(table, "pieces"), numbers(table, "total_pieces")
+    wrong = [m for m, q, p, t in zip(marks, texts(table, "quantity"), pieces, total, strict=True)
+             if nodes.get(m) != q or p != 2 or number(q) * p != t]  # fmt: skip
+    made = pairs(delivery.table("fittings"), "mark", "quantity")
+    sums = {mark: float(total[[name == mark for name in fitted]].sum()) for mark in made}
+    problems = [f"{mark}: fins of an arm are not those of its nodes" for mark in wrong]
+    return problems + [f"{mark}: {made[mark]} made, {count:g} on nodes" for mark, count in sums.items()
+                       if number(made[mark]) != count]  # fmt: skip
 
 
 def _per_class(delivery: Delivery) -> list[str]:

@@ -33,7 +33,7 @@ def _expected(delivery: Delivery) -> set[str]:
 def _unsound(delivery: Delivery, mark: str) -> list[str]:
     solid, record = delivery.solids[mark], delivery.solid_records[mark]
     found = {"genus": genus(solid), "components": components(solid)}
-    wanted = {"genus": _genus_of_bore(delivery, mark, record["genus"]), "components": 1}
+    wanted = {"genus": _holes_through(delivery, mark), "components": 1}
     problems = [] if record["status"] == "NoError" else [f"status {record['status']}"]
     for key, value in found.items():
         if not (value == record[key] == wanted[key]):
@@ -41,10 +41,12 @@ def _unsound(delivery: Delivery, mark: str) -> list[str]:
     return problems
 
 
-def _genus_of_bore(delivery: Delivery, mark: str, recorded: int) -> int:
-    """Give 1 for a drum with a bore, 0 without; base plates of supports are as their maker says."""
-    bored = (delivery.design.raw["node"].get("bore_mm") or 0) > 0
-    return recorded if delivery.node_kinds[mark] == "support" else int(bored)
+def _holes_through(delivery: Delivery, mark: str) -> int:
+    """Give 1 for a drum with a bore, 0 without, and one more for every hole of a fin, which goes through it."""
+    node = delivery.design.raw["node"]
+    if node["detail"] == "finned":
+        return int(pairs(delivery.table("nodes"), "mark", "holes")[mark])
+    return int((node.get("bore_mm") or 0) > 0)
 
 
 def components(solid: Solid) -> int:

@@ -12,8 +12,8 @@ CALCULATED = {"Cover", "Summary", "Checks", "Cost", "Rates", "Repetition"}
 """Sheets that may hold formulas and texts anywhere."""
 
 _NUMERIC = re.compile(
-    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|holes|threads|base_holes"
-    r"|parts|cuts|(total_)?pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect"
+    r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|fins|holes|threads"
+    r"|arm|base_holes|parts|cuts|(total_)?pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect"
     r"|horizontal_parallels|\w+_(count|classes|cost)"
 )
 _LISTS = {"packers_mm"}
