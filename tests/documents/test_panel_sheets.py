@@ -125,8 +125,9 @@ def test_any_convex_outline_is_legible_and_listed(found, radius, flat):
     outline = radius * np.stack([np.cos(turn), flat * np.sin(turn)], axis=1)
     page, _ = sheet_of(outline - outline[0])
     proved(page)
-    sides, texts = lengths(np.round(outline - outline[0], 3)), shown(page)
-    assert all(texts.count(side) >= sides.count(side) for side in sides)
+    numbers = np.array([float(text) for text in shown(page) if re.fullmatch(r"[\d.]+", text)])
+    sides = np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1)
+    assert all(min(abs(numbers - side)) < 2e-3 for side in sides)
 
 
 @settings(max_examples=10, deadline=None)

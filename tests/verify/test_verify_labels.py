@@ -14,7 +14,7 @@ from isomould.verify.read.labels import read_label_texts
 from isomould.verify.rules import judge
 from isomould.writers.label_sheets import write_label_sheets
 
-LABELS = [PieceLabel(f"M{k:02d}", f"MG-{k:02d}-07", f"R-{k:02d}", "2026-014 Süd (Kuppel)") for k in range(30)]
+LABELS = [PieceLabel(f"M{k:02d}", f"MG-{k:02d}-07", f"R-{k:02d}", "2026-014 Süd (Kuppel), Łódź 本") for k in range(30)]
 """More than one sheet."""
 
 
@@ -30,7 +30,7 @@ def test_texts_come_back(sheets):
     assert [len(page) // 4 for page in pages] == [24, 6]
     found = [text for page in pages for text in page]
     assert list(zip(*[iter(found)] * 4, strict=True)) == [
-        (label.mark, label.location, label.crate, "2026-014 Sud (Kuppel)") for label in LABELS
+        (label.mark, label.location, label.crate, "2026-014 Süd (Kuppel), Łódź □") for label in LABELS
     ]
 
 

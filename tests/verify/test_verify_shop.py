@@ -10,8 +10,11 @@ import numpy as np
 import pytest
 
 import isomould
+from isomould.documents.shop.title_block import PLAIN_NOTE
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
+from isomould.verify.read.labels import read_label_texts
+from isomould.verify.read.pdf import read_pdf
 from isomould.verify.rules import judge
 from museum import changed, dome, trimmed, write_project
 
@@ -25,7 +28,8 @@ def built(tmp_path_factory):
         trimmed(dome(5.2, nodes=6)),
         nodes={"base_plate": {"holes": 6}, "slot_end": "round"},
         panels={"coating": "outside", "edge_deduction": {"generatrix": 1}},
-        deliver={"solids": ["members", "panels"]},
+        deliver={"solids": ["members", "panels"], "labels": True},
+        project={"name": "Купол Łódź", "client": "Μονή 日本", "number": "№ 7"},
     )
     project = write_project(folder / "dome.toml", data)
     return isomould.build(project, folder / "dome", run=isomould.Run(effort="quick", jobs=1)).folder
@@ -45,11 +49,38 @@ def rows(folder, name):
         return list(csv.DictReader(file))
 
 
-@pytest.mark.parametrize("rule", ["V24", "V25", "V26", "V26b", "V27", "V27b", "V27c", "V28", "V28b", "V28c", "V40"])
+@pytest.mark.parametrize(
+    "rule",
+    [
+        "V24",
+        "V25",
+        "V26",
+        "V26b",
+        "V27",
+        "V27b",
+        "V27c",
+        "V28",
+        "V28b",
+        "V28c",
+        "V40",
+        "V43f",
+        "V45",
+        "V45b",
+        "V45c",
+        "V45d",
+        "V48",
+    ],
+)
 def test_the_good_folder_passes(built, rule):
     found = check(built, rule)
     assert found.status == "pass", found
     assert found.count > 0
+
+
+def test_names_in_other_scripts_stand_in_drawings_and_labels(built):
+    for sheet in read_pdf(built / "drawings" / "nodes.pdf").sheets:
+        assert {"Купол Łódź", "Μονή □□", PLAIN_NOTE} <= set(sheet.texts)
+    assert "№ 7 Купол Łódź" in read_label_texts(built / "labels.pdf")[0]
 
 
 def test_files_and_schedule_of_a_support(built):

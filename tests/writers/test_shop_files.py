@@ -15,7 +15,7 @@ from isomould.verify.rules import Unreadable
 from isomould.writers.dxf_pages import write_pages
 from isomould.writers.pdf import write_pdf
 
-SHOWN = ["Ø90", "12.3456°", "m²", "(a\\b)", "Äpfel ü", "%%c ^J", "N01"]
+SHOWN = ["Ø90", "12.3456°", "m²", "(a\\b)", "Äpfel ü", "%%c ^J", "N01", "Łódź (Ж\\Ω)"]
 
 
 def book():
@@ -49,7 +49,7 @@ def test_pdf_pages_sizes_bookmarks_and_texts(files):
         lines = page.extract_text().splitlines()
         assert sorted(line.strip() for line in lines if line.strip()) == sorted(SHOWN)
         fonts = page["/Resources"]["/Font"].values()
-        assert {font.get_object()["/BaseFont"] for font in fonts} <= {"/Helvetica", "/Helvetica-Bold"}
+        assert {font.get_object()["/BaseFont"] for font in fonts} == {"/Helvetica", "/AAAAAA+DejaVuSans"}
 
 
 def test_pdf_draws_every_line_arc_and_arrow(files):

@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from reportlab import rl_config
-from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
 
-from isomould.documents.ascii import plain_text
 from isomould.documents.labels import PieceLabel
+from isomould.documents.shop.font import drawable, text_width
 from isomould.writers.codes import draw_code
 from isomould.writers.disk import write_bytes
+from isomould.writers.pdf_fonts import font_for
 
 _MM = 72 / 25.4
 _PAGE = (210.0, 297.0)
@@ -57,14 +57,14 @@ def _add_label(canvas: Canvas, label: PieceLabel) -> None:
     """Draw the code on the left; mark, location, crate and project under each other on its right."""
     draw_code(canvas, label.code, (_LEFT, _BELOW), _CODE)
     x, y = _TEXT
-    for text, height, drop in ((label.mark, 7.0, 6.0), (label.location, 4.5, 8.0), (label.crate, 3.5, 7.0)):
+    for text, height, drop in ((label.mark, 5.0, 6.0), (label.location, 3.2, 8.0), (label.crate, 2.5, 7.0)):
         y -= drop
         _write(canvas, x, y, text, height)
-    _write(canvas, x, y - 6.0, plain_text(label.project), 2.0)
+    _write(canvas, x, y - 6.0, drawable(label.project), 1.4)
 
 
-def _write(canvas: Canvas, x: float, y: float, text: str, size: float) -> None:
-    """Write a line, smaller where it would be too wide."""
-    width = stringWidth(text, "Helvetica-Bold", size)
-    canvas.setFont("Helvetica-Bold", size if width <= _WIDTH else size * _WIDTH / width)
+def _write(canvas: Canvas, x: float, y: float, text: str, height: float) -> None:
+    """Write a line with capitals of some height, mm, lower where it would be too wide."""
+    width = text_width(text, height, bold=True)
+    canvas.setFont(*font_for(text, height if width <= _WIDTH else height * _WIDTH / width, bold=True))
     canvas.drawString(x, y, text)

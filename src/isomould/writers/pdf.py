@@ -1,4 +1,7 @@
-"""Pages as PDF: vector lines, searchable text in a standard font, a bookmark per page, the same bytes every time."""
+"""Pages as PDF: vector lines, searchable text, a bookmark per page, the same bytes every time.
+
+Text stands in a standard font, which is not in the file, or in the embedded one, of which its characters are.
+"""
 
 import io
 import math
@@ -8,10 +11,11 @@ from pathlib import Path
 from reportlab import rl_config
 from reportlab.pdfgen.canvas import Canvas
 
-from isomould.documents.shop.font import font_size, text_width
+from isomould.documents.shop.font import text_width
 from isomould.documents.shop.page import Arc, Book, Code, Item, Line, Page, Pen, Text
 from isomould.writers.codes import draw_code
 from isomould.writers.disk import write_bytes
+from isomould.writers.pdf_fonts import font_for
 
 _POINT = 72 / 25.4
 """Points per mm."""
@@ -95,7 +99,7 @@ def _write_texts(canvas: Canvas, texts: list[Text]) -> None:
     """Write all texts of a page in one text object, those of one font after each other."""
     block, font = canvas.beginText(), ("", 0.0)
     for text in sorted(texts, key=lambda text: (text.bold, text.height)):
-        own = ("Helvetica-Bold" if text.bold else "Helvetica", font_size(text.height))
+        own = font_for(text.text, text.height, bold=text.bold)
         if own != font:
             block.setFont(*own)
             font = own

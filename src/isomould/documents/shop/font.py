@@ -1,17 +1,30 @@
-"""Widths of texts in Helvetica and Arial, whose characters are equally wide: what lays texts out without overlap."""
+"""Widths of texts: what lays them out without overlap.
+
+Texts are written in Helvetica, or in Arial, whose characters are equally wide. Those with letters that Helvetica
+lacks in PDF files are written whole in DejaVu Sans, which goes into the file.
+"""
 
 import functools
-import re
 import unicodedata
-from itertools import filterfalse
+from pathlib import Path
+from typing import Literal
 
+from isomould.documents.ascii import plain_letters
 from isomould.errors import Refused
 
+Face = Literal["standard", "embedded"]
+
+FONT_FILE = Path(__file__).parent / "fonts" / "DejaVuSans.ttf"
+"""The embedded font: Latin, Greek, Cyrillic, Armenian and Georgian letters."""
+_WIDTHS_FILE, _UNIT = FONT_FILE.with_name("widths.txt"), 2048
+
 _CODES = range(32, 256)
-_CAPITAL = 718
-"""Height of capitals in thousandths of the font's size."""
-_DESCENDER = 0.3
-"""Depth of what hangs below the baseline, in heights of capitals."""
+_CAPITALS: dict[Face, float] = {"standard": 718, "embedded": 729}
+"""Heights of capitals in thousandths of the font's size."""
+_DESCENDERS: dict[Face, float] = {"standard": 0.3, "embedded": 0.39}
+"""Depths of what hangs below the baseline, in heights of capitals."""
+_BOX = "□"
+"""Stands for a character that no font has."""
 
 _REGULAR = """
 278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 556 556 556 556 556 556 556 556 556 556 278 278 584
@@ -42,37 +55,37 @@ def _table(widths: str) -> dict[str, int]:
 
 
 _WIDTHS = {False: _table(_REGULAR), True: _table(_BOLD)}
-_NAME = re.compile(r"LATIN (CAPITAL|SMALL) LETTER (?:DOTLESS |OPEN )?(SHARP S|ENG|EZH|ESH|SCHWA|[A-Z])(?: WITH .*)?")
-_WORDS = {"SHARP S": "SS", "ENG": "N", "EZH": "Z", "ESH": "S", "SCHWA": "E"}
+
+
+@functools.cache
+def _embedded() -> dict[str, float]:
+    """Widths by character of the embedded font, in thousandths of its size: lines of a first code and widths."""
+    lines = _WIDTHS_FILE.read_text(encoding="utf-8").splitlines()[1:]
+    runs = ((int(first, 16), map(int, widths)) for first, *widths in map(str.split, lines))
+    return {chr(code): width * 1000 / _UNIT for first, widths in runs for code, width in enumerate(widths, first)}
+
+
+def face_of(text: str) -> Face:
+    """Tell which font a text is written in."""
+    return "standard" if _WIDTHS[False].keys() >= set(text) else "embedded"
 
 
 def drawable(text: str) -> str:
-    """Give text in the characters of the font: Latin letters that it lacks lose their accents and strokes.
+    """Give text in the characters of the fonts: letters that they lack stand plain, other characters as boxes.
 
-    Dashes become hyphens. What has no plain Latin form stays, and is refused where it is drawn.
-
-    >>> drawable("Łódź, Süd – Đakovo № 2"), drawable("日本")
-    ('Lódz, Süd – Dakovo No 2', '日本')
+    >>> drawable("Łódź, Süd – Đakovo № 2"), drawable("Ǆ日本")
+    ('Łódź, Süd – Đakovo № 2', 'Ǆ□□')
     """
-    return "".join(_plain(character) for character in unicodedata.normalize("NFC", text))
+    composed = unicodedata.normalize("NFC", text)
+    if face_of(composed) == "standard":
+        return composed
+    known = _embedded()
+    return "".join(letter if letter in known else _or_box(plain_letters(letter)) for letter in composed)
 
 
-def _plain(character: str) -> str:
-    """Keep a character that the font has, else take its compatible parts without their marks."""
-    if character in _WIDTHS[False]:
-        return character
-    return "".join(map(_letter, filterfalse(unicodedata.combining, unicodedata.normalize("NFKD", character))))
-
-
-def _letter(character: str) -> str:
-    """Give the letter that a Latin one with a stroke or hook is named after."""
-    found = _NAME.fullmatch(unicodedata.name(character, ""))
-    if character in _WIDTHS[False]:
-        return character
-    if not found:
-        return "-" if unicodedata.category(character) == "Pd" else character
-    letter = _WORDS.get(found[2], found[2])
-    return letter if found[1] == "CAPITAL" else letter.lower()
+def _or_box(letters: str) -> str:
+    known = _embedded()
+    return "".join(letter if letter in known else _BOX for letter in letters)
 
 
 @functools.cache
@@ -89,22 +102,23 @@ def text_width(text: str, height: float, *, bold: bool = False) -> float:
     >>> round(text_width("1234.567", 7.18), 2)
     41.7
     """
-    widths = _WIDTHS[bold]
+    face = face_of(text)
+    widths = _WIDTHS[bold] if face == "standard" else _embedded()
     missing = sorted({character for character in text if character not in widths})
     if missing:
         raise Refused(
             "E-DRAW-FONT",
             "a text of the drawings",
             f"{text!r} with {' '.join(missing)}",
-            "Latin letters and what else Windows-1252 has, as do the fonts of all PDF readers",
+            "Latin, Greek, Cyrillic, Armenian and Georgian letters and usual signs, which the fonts of drawings have",
             "Write it in these, or leave the drawings out: deliver.drawings = false.",
         )
-    return sum(map(widths.__getitem__, text)) / _CAPITAL * height
+    return sum(map(widths.__getitem__, text)) / _CAPITALS[face] * height
 
 
-def font_size(height: float) -> float:
+def font_size(height: float, face: Face = "standard") -> float:
     """Give the size of the font whose capitals are `height` high, in the same unit."""
-    return height * 1000 / _CAPITAL
+    return height * 1000 / _CAPITALS[face]
 
 
 def depth_below(text: str, height: float) -> float:
@@ -113,4 +127,6 @@ def depth_below(text: str, height: float) -> float:
     >>> depth_below("MG-03", 2.5), depth_below("glass", 2.5)
     (0.0, 0.75)
     """
-    return _DESCENDER * height if set(text) & set("gjpqyQ,;()[]{}|@_çÇ§µþ") else 0.0
+    face = face_of(text)
+    hangs = face == "embedded" or set(text) & set("gjpqyQ,;()[]{}|@_çÇ§µþ")
+    return _DESCENDERS[face] * height if hangs else 0.0

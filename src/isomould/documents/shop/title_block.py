@@ -33,9 +33,7 @@ _SIDE, _LABEL, _SPACING = 1.5, 3.2, 1.5
 _CODE = 18.0
 """Side of the QR code, mm: around it, its cell leaves four modules and more of quiet zone."""
 UNITS = "mm, °, kg, m²"
-PLAIN_NOTE = (
-    "Letters that the font of the drawings lacks stand without accents and strokes; the schedules have them as given."
-)
+PLAIN_NOTE = "Characters that the fonts of the drawings lack stand plain or as boxes; the schedules have them as given."
 
 
 class Cell(Settings):

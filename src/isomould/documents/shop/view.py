@@ -44,7 +44,7 @@ def fit_scale(extent: tuple[float, float] | Floats, room: tuple[float, float]) -
     """Give the largest standard scale at which an extent in x and y (model mm) fits a room (paper mm).
 
     >>> fit_scale((2400.0, 200.0), (220.0, 60.0))
-    20.0
+    15.0
     """
     fitting = (scale for scale in SCALES if extent[0] / scale <= room[0] and extent[1] / scale <= room[1])
     return next(fitting, SCALES[-1])

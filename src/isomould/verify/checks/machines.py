@@ -100,6 +100,9 @@ def _rows(table: Table) -> list[dict[str, str]]:
     return [dict(zip(names, cells, strict=True)) for cells in zip(*table.columns.values(), strict=True)]
 
 
+_NAMED_LETTERS = {"SHARP S": "SS", "THORN": "TH", "ETH": "D", "ENG": "N", "EZH": "Z", "ESH": "S", "SCHWA": "E"}
+
+
 def _header_faults(part: NcFile, row: dict[str, str], order: dict[str, str]) -> list[str]:
     """List what a file says otherwise than the schedule's row and the project's order."""
     wanted = {key: _plain(order[key]) for key in ("order", "drawing", "phase")} | {"mark": row["mark"]}
@@ -111,9 +114,19 @@ def _header_faults(part: NcFile, row: dict[str, str], order: dict[str, str]) -> 
 
 
 def _plain(text: str) -> str:
-    """Give text as the files can hold it: without accents, a question mark for what has no plain letter."""
+    """Give text as the files can hold it: plain letters, a question mark for what has none."""
     bare = [letter for letter in unicodedata.normalize("NFKD", text) if not unicodedata.combining(letter)]
-    return "".join(letter if letter.isascii() else "?" for letter in bare)[:80].strip() or "-"
+    return "".join(letter if letter.isascii() else _bare(letter) for letter in bare)[:80].strip() or "-"
+
+
+def _bare(letter: str) -> str:
+    """Give the plain letters that the name of a Latin one says: LATIN SMALL LETTER L WITH STROKE is an l."""
+    words = unicodedata.name(letter, "").partition(" WITH ")[0].split()
+    if words[:1] != ["LATIN"] or words[2:3] not in (["LETTER"], ["LIGATURE"]):
+        return "-" if unicodedata.category(letter) == "Pd" else "?"
+    told = " ".join(word for word in words[3:] if word not in {"DOTLESS", "OPEN"})
+    plain = _NAMED_LETTERS.get(told, told if len(told) < 3 else "?")
+    return plain if words[1] == "CAPITAL" else plain.lower()
 
 
 def sizes(delivery: Delivery) -> Measured:
