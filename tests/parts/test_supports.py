@@ -1,5 +1,6 @@
 """Base plates by hand, and what is refused about them."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,18 +10,28 @@ import museum
 from isomould.design import kit_settings
 from isomould.errors import Refused
 from isomould.form.mesh import Family, NodeKind
+from isomould.parts.building import make_shapes
+from isomould.parts.clash import refuse_clashes
 from isomould.parts.nodes import NodeArms
 from isomould.parts.outline import area
 from isomould.parts.settings import BasePlateSettings, MemberSettings
-from isomould.parts.supports import _make_base, _reach, make_bases, up_directions
+from isomould.parts.solid import make_solids
+from isomould.parts.supports import Drum, _make_base, _reach, make_bases, up_directions
 
 DOME = museum.trimmed(museum.dome(5.2, nodes=6))
 ASKED = BasePlateSettings()
 MEMBERS = MemberSettings(section="FL120*10")
 
 
-def drum(height=100.0, radius=45.0):
-    return SimpleNamespace(radius=radius, height=height, clearance=2.0, stack=((radius, height / 2),))
+ROUND = Drum(45.0, -50.0, 50.0, np.empty((0, 4)))
+CORNERS = np.array([[47.0, 60.0], [47.0, -60.0]])
+
+
+def joint(height=100.0, radius=45.0):
+    """A drum with members that end beside it, 10 mm wide."""
+    stack = ((radius, height / 2),)
+    end = SimpleNamespace(outline=CORNERS)
+    return SimpleNamespace(stack=stack, under=stack, end=lambda *_: end, hold=lambda _: (10.0, 0.0))
 
 
 def arms(elevation_deg=90.0 - 1e-3, family=Family.GENERATRIX):
@@ -31,8 +42,8 @@ def test_a_drum_that_lies_on_its_side_by_hand():
     """Axis level, member rising: the plate's top is a radius and the clearance below, its stem a rectangle."""
     up = np.array([1.0, 0.0, 0.0])
     flat = arms(0.0)
-    assert _reach(flat, up, drum(), MEMBERS) == pytest.approx(45.0)
-    base = _make_base(flat, up, (45.0, 50.0), 45.0, ASKED, "N01")
+    assert _reach(flat, up, joint(), MEMBERS) == pytest.approx(45.0)
+    base = _make_base(up, ROUND, 45.0, ASKED, "N01")
     assert base.level == 55.0
     assert np.ptp(base.plate, axis=0).tolist() == [2 * (50 + 60), 2 * (45 + 60)]
     assert np.ptp(base.stem, axis=0) == pytest.approx([0.9 * 100, 10.0])
@@ -45,9 +56,9 @@ def test_a_drum_that_lies_on_its_side_by_hand():
 def test_a_drum_that_leans_by_hand():
     """At 45° the lowest corner is (R + H/2)/√2 down; the stem's notch ends there, the clearance above its foot."""
     up = np.array([1.0, 0.0, 1.0]) / np.sqrt(2)
-    reach = _reach(arms(0.0), up, drum(), MEMBERS)
+    reach = _reach(arms(0.0), up, joint(), MEMBERS)
     assert reach == pytest.approx(95 / np.sqrt(2))
-    base = _make_base(arms(0.0), up, (45.0, 50.0), reach, ASKED, "N01")
+    base = _make_base(up, ROUND, reach, ASKED, "N01")
     assert base.level == np.ceil(95 / np.sqrt(2) + 10)
     lowest = base.stem[np.argsort(base.stem[:, 1])[2]]
     assert lowest == pytest.approx([(45 - 50) / np.sqrt(2), base.level - 95 / np.sqrt(2)], abs=1e-3)
@@ -59,15 +70,63 @@ def test_a_drum_that_leans_by_hand():
 
 def test_a_drum_that_stands_upright():
     up = np.array([0.0, 0.0, 1.0])
-    base = _make_base(arms(0.0), up, (45.0, 50.0), 60.0, ASKED, "N01")
+    base = _make_base(up, ROUND, 60.0, ASKED, "N01")
     assert np.ptp(base.plate, axis=0).tolist() == [210.0, 210.0]
     assert np.ptp(base.stem, axis=0) == pytest.approx([81.0, 20.0])
+
+
+def test_a_drum_that_is_longer_on_one_side_by_hand():
+    """Axis level along +x, 70 to the outside and 30 to the inside: the plate follows, its holes keep to its edges."""
+    up = np.array([1.0, 0.0, 0.0])
+    base = _make_base(up, replace(ROUND, low=-30.0, high=70.0), 45.0, ASKED, "N01")
+    assert (base.plate[:, 0].min(), base.plate[:, 0].max()) == (-30 - 60, 70 + 60)
+    assert {hole.x for hole in base.holes} == {-90 + 30, 130 - 30}
+    assert (base.stem[:, 0].min(), base.stem[:, 0].max()) == pytest.approx((-0.9 * 30, 0.9 * 70))
+
+
+def test_a_stem_ends_where_a_facet_begins():
+    """A facet square to (0, −1, 1) of a drum that lies on its side cuts its lowest line at z = s √2 − 45."""
+    up, normal = np.array([1.0, 0.0, 0.0]), np.array([-1.0, 0.0, 1.0]) / np.sqrt(2)
+    at = 55.0
+    base = _make_base(up, replace(ROUND, planes=np.array([[*normal, at]])), 45.0, ASKED, "N01")
+    assert base.stem[:, 0].max() == pytest.approx(at * np.sqrt(2) - 45, abs=1e-3)
+    assert base.stem[:, 0].min() == pytest.approx(-45)
+
+
+def test_a_facet_under_the_work_point_is_refused():
+    up = np.array([1.0, 0.0, 0.0])
+    with pytest.raises(Refused, match=r"E-BASE-SEAT nodes\.base_plate \(N01\)"):
+        _make_base(up, replace(ROUND, planes=np.array([[-1.0, 0.0, 0.0, 40.0]])), 45.0, ASKED, "N01")
+
+
+DETAILS = {
+    "faceted": {
+        "nodes": {"detail": "faceted", "base_plate": {}},
+        "members": {"section": "RHS 120x60x5", "sill": "FL120*10"},
+    },
+    "finned": {"nodes": {"detail": "finned", "base_plate": {}}, "members": {"section": "FL120*10"}},
+}
+
+
+@pytest.mark.parametrize("detail", DETAILS)
+def test_bases_carry_drums_of_every_detail_and_take_nobodys_space(detail):
+    design = museum.design(museum.changed(DOME, **DETAILS[detail]))
+    kit, settings = design.kit, kit_settings(design.project)
+    made = [base for base in kit.bases if base]
+    assert len(made) == np.count_nonzero(kit.nodes.kind == NodeKind.SUPPORT) > 0
+    solids = make_solids(kit.nodes, kit.joints)
+    refuse_clashes(kit, settings, make_shapes(kit, settings, solids))
+    assert [base.level for base in made] == [
+        np.ceil(round(_reach(arms, up, joint, design.project.members) + 10.0, 6))
+        for arms, up, joint, base in zip(kit.nodes.arms, kit.nodes.up, kit.joints, kit.bases, strict=True)
+        if base
+    ]
 
 
 def test_sills_keep_the_plate_below_them():
     up = np.array([1.0, 0.0, 0.0])
     both = NodeArms(np.array([0.0, np.pi / 2]), np.zeros(2), np.array([int(Family.GENERATRIX), int(Family.SILL)]))
-    assert _reach(both, up, drum(), MEMBERS) == 60.0
+    assert _reach(both, up, joint(), MEMBERS) == 60.0
 
 
 def test_supports_of_a_dome_share_a_class_only_with_their_direction():

@@ -6,6 +6,7 @@ x along the projection of the node's axis, y across, z up, its origin on the pla
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import shapely
@@ -16,7 +17,6 @@ from isomould.form.mesh import Family, Mesh, NodeKind
 from isomould.form.trim import Cut
 from isomould.parts.arms import normalised
 from isomould.parts.details.joint import Joint
-from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.features import Hole
 from isomould.parts.nodes import NodeArms, NodeParts
 from isomould.parts.outline import area, round_outline
@@ -93,42 +93,51 @@ def make_bases(
     Raises
     ------
     Refused
-        If the holes lie too near to the plate's edges, to each other or to the drum.
+        If the holes lie too near to the plate's edges, to each other or to the drum, or a facet leaves the stem nothing
+        to carry.
     """
     if settings is None:
         return (None,) * len(nodes.marks)
-    if not all(isinstance(joint, SlottedJoint) for joint in joints):
-        found, limit = "base plates under faceted nodes", "base plates under slotted nodes, whose drums are symmetrical"
-        raise Refused("E-BASE-DETAIL", "nodes.base_plate", found, limit, "Leave nodes.base_plate out.")
     _refuse_holes(settings)
     rows = zip(nodes.arms, nodes.up, joints, nodes.marks, strict=True)
     return tuple(
-        _make_base(arms, up, (joint.radius, joint.height / 2), _reach(arms, up, joint, members), settings, mark)
-        if up.any()
-        else None
+        _make_base(up, Drum.of(joint), _reach(arms, up, joint, members), settings, mark) if up.any() else None
         for arms, up, joint, mark in rows
     )
 
 
-def _make_base(
-    arms: NodeArms, up: Floats, drum: tuple[float, float], reach: float, settings: BasePlateSettings, mark: str
-) -> Base:
-    """Make a base for a drum of a radius and half a height, under parts that reach so far down."""
+@dataclass(frozen=True, eq=False)
+class Drum:
+    """What a base carries: radius and levels (mm) of a drum about its axis, and planes (k, 4) that cut it."""
+
+    radius: float
+    low: float
+    high: float
+    planes: Floats
+
+    @classmethod
+    def of(cls, joint: Joint) -> Self:
+        """Take the drum of a node."""
+        return cls(joint.radius, joint.low, joint.high, joint.planes)
+
+
+def _make_base(up: Floats, drum: Drum, reach: float, settings: BasePlateSettings, mark: str) -> Base:
+    """Make a base for a drum under parts that reach so far down."""
     level = float(np.ceil(round(reach + settings.clearance, 6)))
     axes = _axes(up)
     lean, rise = float(axes[0, 2]), float(up[2])
-    radius, half = drum
-    footprint = np.array([radius * abs(rise) + half * abs(lean), radius])
-    size = np.ceil(np.round(footprint + settings.margin, 6))
+    ends = np.array([drum.low, drum.high]) * lean
+    beside = drum.radius * abs(rise)
+    sizes = np.array([[beside - ends.min(), drum.radius], [beside + ends.max(), drum.radius]])
+    low, high = np.ceil(np.round(sizes + settings.margin, 6)) * [[-1], [1]]
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = axes.T, -level * up
-    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * size
     return Base(
         frame=frame,
         level=level,
-        plate=round_outline(corners),
-        stem=_stem(lean, rise, drum, level),
-        holes=_holes(size, settings, mark),
+        plate=round_outline(np.array([low, [high[0], low[1]], high, [low[0], high[1]]])),
+        stem=_stem(axes, drum, level, settings, mark),
+        holes=_holes(low, high, settings, mark),
         plate_thickness=settings.thickness,
         stem_thickness=settings.stem_thickness,
     )
@@ -144,7 +153,9 @@ def _axes(up: Floats) -> Floats:
 
 def _reach(arms: NodeArms, up: Floats, joint: Joint, members: MemberSettings) -> float:
     """How far drum, members and sills reach below the work point."""
-    below = [radius * np.hypot(up[0], up[1]) + height * abs(up[2]) for radius, height in joint.stack]
+    flat = float(np.hypot(up[0], up[1]))
+    below = [radius * flat - height * up[2] for radius, height in joint.stack]
+    below += [radius * flat + depth * up[2] for radius, depth in joint.under]
     below += [members.of(Family.SILL).depth / 2] * int((arms.family == Family.SILL).any())
     below += [float(-(_end_corners(*arm, joint, members) @ up).min()) for arm in _held(arms)]
     return float(max(below))
@@ -156,28 +167,63 @@ def _held(arms: NodeArms) -> list[tuple[float, float, int]]:
 
 
 def _end_corners(azimuth: float, elevation: float, family: int, joint: Joint, members: MemberSettings) -> Floats:
-    """Corners (4, 3) of a member's body at the drum."""
-    section, r = members.of(family), joint.radius + joint.clearance
-    half = section.depth / 2
+    """Corners (k, 3) of a member's end, as broad as what holds it."""
+    section = members.of(family)
+    level, rise = np.cos(elevation), np.sin(elevation)
     out, aside = np.array([np.cos(azimuth), np.sin(azimuth), 0.0]), np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
-    z = [(side * half + r * np.sin(elevation)) / np.cos(elevation) for side in (1, -1)]
-    return np.array([r * out + np.array([0, 0, h]) + s * section.width / 2 * aside for h in z for s in (1, -1)])
+    axis = np.array([0.0, 0.0, 1.0])
+    points = joint.end(section, elevation).outline @ np.stack([level * out + rise * axis, level * axis - rise * out])
+    return np.concatenate([points + side * joint.hold(section)[0] / 2 * aside for side in (1, -1)])
 
 
-def _stem(lean: float, rise: float, drum: tuple[float, float], level: float) -> Floats:
+def _stem(axes: Floats, drum: Drum, level: float, settings: BasePlateSettings, mark: str) -> Floats:
     """Outline of the stem: from the plate up to the drum's section in the stem's plane, a rectangle that leans."""
-    radius, half = drum
-    along, aside = np.array([lean, rise]) * half, np.array([-rise, lean]) * radius
-    section = shapely.Polygon([along + aside, -along + aside, -along - aside, along - aside])
-    chord = min(half / max(abs(lean), 1e-9), radius / max(abs(rise), 1e-9))
-    under = shapely.box(-_SEAT * chord, -level, _SEAT * chord, 0.0).difference(section)
+    lean, rise = float(axes[0, 2]), float(axes[2, 2])
+    along, aside = np.array([lean, rise]), np.array([-rise, lean]) * drum.radius
+    corners = [drum.high * along + aside, drum.low * along + aside, drum.low * along - aside, drum.high * along - aside]
+    section = shapely.Polygon(corners)
+    left, right = _seat(section, _facet_lines(axes, drum.planes, settings.stem_thickness / 2), level, mark)
+    under = shapely.box(left, -level, right, 0.0).difference(section)
     points = shapely.get_coordinates(shapely.normalize(under))[:-1] + np.array([0.0, level])
     return round_outline(points if area(points) > 0 else points[::-1])
 
 
-def _holes(size: Floats, settings: BasePlateSettings, mark: str) -> tuple[Hole, ...]:
+def _facet_lines(axes: Floats, planes: Floats, half: float) -> Floats:
+    """Lines (k, 3) in the stem's plane, as normals and distances, inside which facets are off the whole stem."""
+    local = planes[:, :3] @ axes.T
+    return np.column_stack([local[:, [0, 2]], planes[:, 3] - half * np.abs(local[:, 1])])
+
+
+def _seat(section: shapely.Polygon, lines: Floats, level: float, mark: str) -> tuple[float, float]:
+    """Where (from, to) the stem may carry: 0.9 of the drum's chord through the work point, short of facets' edges."""
+    chord = section.intersection(shapely.LineString([(-1e5, 0.0), (1e5, 0.0)])).bounds
+    left, right = _SEAT * chord[0], _SEAT * chord[2]
+    rim = section.exterior.intersection(shapely.box(left, -level, right, 0.0))
+    for a, b, distance in lines.tolist():
+        rim = rim.intersection(_half_plane(a, b, distance))
+    found = [part.bounds for part in shapely.get_parts(shapely.line_merge(shapely.union_all([rim])))]
+    under = [(low, high) for low, _, high, _ in found if low <= 0.0 <= high]
+    if not under:
+        what = "a facet takes the drum's side away under the work point"
+        way_out = "Divide the curves differently, or leave nodes.base_plate out."
+        raise Refused("E-BASE-SEAT", f"nodes.base_plate ({mark})", what, "round drum for the stem to carry", way_out)
+    return under[0]
+
+
+def _half_plane(a: float, b: float, distance: float) -> shapely.Polygon:
+    """All points (x, z) near the drum with `a x + b z` up to a distance."""
+    size = float(np.hypot(a, b))
+    if size < 1e-9:
+        return shapely.box(-1e5, -1e5, 1e5, 1e5 if distance >= 0 else -1e5)
+    normal = np.array([a, b]) / size
+    foot, way = normal * distance / size, np.array([-normal[1], normal[0]]) * 1e5
+    return shapely.Polygon([foot + way, foot - way, foot - way - 1e5 * normal, foot + way - 1e5 * normal])
+
+
+def _holes(low: Floats, high: Floats, settings: BasePlateSettings, mark: str) -> tuple[Hole, ...]:
     """Holes at the corners, and at the middles of the longer sides (6) or of all (8)."""
-    x, y = round_um(size - settings.edge_distance)
+    middle = (low + high) / 2
+    x, y = round_um((high - low) / 2 - settings.edge_distance)
     places = [(i * x, j * y) for i in (-1, 1) for j in (-1, 1)]
     longer = [(0.0, y), (0.0, -y)] if x >= y else [(x, 0.0), (-x, 0.0)]
     shorter = [(x, 0.0), (-x, 0.0)] if x >= y else [(0.0, y), (0.0, -y)]
@@ -186,7 +232,7 @@ def _holes(size: Floats, settings: BasePlateSettings, mark: str) -> tuple[Hole, 
     apart = float(min(x * steps[0], y * steps[1]))
     if apart < 2.4 * settings.hole_diameter:
         _refuse("holes", f"{mark}: holes {apart:.3f} mm apart", 2.4 * settings.hole_diameter, "2.4 hole diameters")
-    return tuple(Hole(float(px), float(py), settings.hole_diameter) for px, py in places)
+    return tuple(Hole(float(middle[0] + px), float(middle[1] + py), settings.hole_diameter) for px, py in places)
 
 
 def _refuse_holes(settings: BasePlateSettings) -> None:

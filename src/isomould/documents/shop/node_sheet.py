@@ -60,7 +60,7 @@ class NodeDrawing:
 
 def node_sheet(stationery: Stationery, table: Table, node: NodeDrawing, sheet: int, sheets: int) -> Page:
     """Draw one node class."""
-    size = paper_size(stationery.paper or "A4", lying=False)
+    size = paper_size(stationery.paper or ("A3" if node.base else "A4"), lying=False)
     left, bottom, right, top = room(stationery, size)
     arms = _arm_rows(node)
     data = data_rows(table, node.row)

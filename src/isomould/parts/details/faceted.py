@@ -62,6 +62,16 @@ class FacetedJoint(Joint):
         return tuple(self.families[family] for family in self.arms.family.tolist())
 
     @property
+    def under(self) -> tuple[tuple[float, float], ...]:
+        """The drum alone, which may reach less far below the work point than above it, or further."""
+        return ((self.radius, -self.low),)
+
+    @property
+    def planes(self) -> Floats:
+        """The facets."""
+        return np.column_stack([_axes(self.arms), np.full(len(self.arms.azimuth), self.distance)])
+
+    @property
     def tag(self) -> int:
         """The distance of the facets in µm."""
         return round(self.distance * 1000)

@@ -177,12 +177,13 @@ def size_finned(nodes: NodeParts, members: MemberSettings, settings: FinnedSetti
     Refused
         If members are no plates, or a node breaks one of its limits.
     """
-    pattern = lay_pattern(members.section.depth, settings)
-    forks = {family: make_fork(section, pattern, settings) for family, section in _plate_sections(members).items()}
+    depth, plates = members.section.depth, _plate_sections(members)
+    forks = _forks(plates, lay_pattern(depth, depth, settings), settings)
     held = [arms.held for arms in nodes.arms]
     needed = max(_needed_radius(arms, forks, settings) for arms in held)
     diameter = smallest_diameter(2 * needed, settings.drum_diameter, settings.diameter_step)
     height = settings.fin_height or min(_fin_height(arms, diameter / 2, members, settings) for arms in held)
+    forks = _forks(plates, lay_pattern(depth, height, settings), settings)
     least = max(_needed_distance(arms, forks, diameter / 2, settings) for arms in held)
     distance = settings.bolt_distance or float(np.ceil(round(least, 6)))
     joints = tuple(_joint(arms, (diameter, height, distance), forks, members, settings) for arms in held)
@@ -203,6 +204,10 @@ def _plate_sections(members: MemberSettings) -> dict[int, PlateSection]:
         "plates",
         "Give plates, or nodes.detail = 'faceted' for hollow sections.",
     )
+
+
+def _forks(plates: dict[int, PlateSection], pattern: Pattern, settings: FinnedSettings) -> dict[int, Fork]:
+    return {family: make_fork(section, pattern, settings) for family, section in plates.items()}
 
 
 def _each(arms: NodeArms, forks: dict[int, Fork]) -> list[Fork]:

@@ -118,11 +118,12 @@ class Fork:
         )
 
 
-def lay_pattern(depth: float, settings: FinnedSettings) -> Pattern:
-    """Spread the rows over a depth, and the columns as near to each other as bolts and tool allow, in whole mm."""
+def lay_pattern(depth: float, fin_height: float, settings: FinnedSettings) -> Pattern:
+    """Spread the rows over a depth as fins of this height allow, the columns as bolts and tool do, in whole mm."""
     bolt = find_bolt(settings.hardware.bolt)
     rows, columns = settings.bolt_rows, settings.bolt_columns
-    spacing = settings.bolt_spacing or depth / rows
+    widest = np.floor((fin_height - 2 * EDGE * bolt.clearance_hole) / max(rows - 1, 1))
+    spacing = settings.bolt_spacing or min(depth / rows, float(widest))
     least = max(PITCH * bolt.clearance_hole, (bolt.tool + bolt.across_corners) / 2)
     pitch = settings.bolt_pitch or float(np.ceil(round(least, 6)))
     levels = (np.arange(rows) - (rows - 1) / 2) * spacing

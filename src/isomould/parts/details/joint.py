@@ -138,6 +138,16 @@ class Joint(ABC):
         return round(self.high - self.low, 3)
 
     @property
+    def under(self) -> tuple[tuple[float, float], ...]:
+        """What stands around the axis below the work point, as (radius, depth): the same as above it."""
+        return self.stack
+
+    @property
+    def planes(self) -> Floats:
+        """Planes (k, 4) that cut the drum: unit normals to the outside, and their distances from the work point."""
+        return np.empty((0, 4))
+
+    @property
     def proud(self) -> bool:
         """Whether something may stand above the members: members that lean end lower than their drum."""
         return len(self.stack) > 1 or not self.leans
