@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from fontTools.ttLib import TTFont as GlyphFont
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from reportlab.pdfbase.pdfmetrics import stringWidth
@@ -10,7 +11,7 @@ from reportlab.pdfbase.ttfonts import TTFont
 from isomould.documents.info import ProjectInfo
 from isomould.documents.shop.checks import clashes
 from isomould.documents.shop.dimensions import Side, Span, below, running, stack
-from isomould.documents.shop.font import FONT_FILE, drawable, font_size, text_width
+from isomould.documents.shop.font import FONT_FILE, depth_below, drawable, font_size, text_width
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import Arc, Line, Page, Text, reading
 from isomould.documents.shop.placing import collide, free_text, place_all, segments, within
@@ -47,7 +48,9 @@ def test_widths_of_the_embedded_font_are_those_of_its_file():
     for text in (*foreign, "Στέγαστρο", "Łódź 7"):
         own = font.stringWidth(text, font_size(2.5, "embedded"))
         assert text_width(text, 2.5) == pytest.approx(own, abs=1e-9), text
-    assert -font.face.bbox[1] / 1000 < 0.39 * 0.729
+    glyphs = GlyphFont(FONT_FILE)["glyf"]
+    lowest = min(getattr(glyphs[name], "yMin", 0) for name in glyphs)
+    assert 0 < -lowest / 2048 / 0.729 < depth_below("Щ", 1.0)
 
 
 def test_characters_without_a_width_are_refused():
@@ -139,6 +142,7 @@ names = st.text(CHARACTERS + "ŁøЖщΣάքაẼ日", max_size=120)
 @given(names, names, names)
 @example("W" * 120, "W" * 120, "W" * 120)
 @example("Wide " * 24, "", "")
+@example("", "", " ")
 def test_title_blocks_hold_any_text(name, client, author):
     info = ProjectInfo(name=f"A{name[1:]}", client=client, author=author, number="2026-014", revision="AB")
     sheet = finish(Stationery(BLOCK, info), SUBJECT, (210.0, 297.0), [])

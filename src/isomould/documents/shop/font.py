@@ -21,7 +21,7 @@ _WIDTHS_FILE, _UNIT = FONT_FILE.with_name("widths.txt"), 2048
 _CODES = range(32, 256)
 _CAPITALS: dict[Face, float] = {"standard": 718, "embedded": 729}
 """Heights of capitals in thousandths of the font's size."""
-_DESCENDERS: dict[Face, float] = {"standard": 0.3, "embedded": 0.39}
+_DESCENDERS: dict[Face, float] = {"standard": 0.3, "embedded": 0.42}
 """Depths of what hangs below the baseline, in heights of capitals."""
 _BOX = "□"
 """Stands for a character that no font has."""

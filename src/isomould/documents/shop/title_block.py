@@ -134,7 +134,7 @@ def _cell(cell: Cell, corner: Floats, values: Mapping[Value, str]) -> list[Item]
     text = values[cell.value]
     if cell.value == "code":
         return [border, Code(text, (float(x + (width - _CODE) / 2), float(y + (height - _CODE) / 2)), _CODE)]
-    return [border, label, *(_lines(drawable(text), cell, float(x) + _SIDE, float(y)) if text else [])]
+    return [border, label, *(_lines(drawable(text), cell, float(x) + _SIDE, float(y)) if text.strip() else [])]
 
 
 def _lines(text: str, cell: Cell, x: float, y: float) -> list[Text]:
