@@ -7,14 +7,14 @@ from typing import Any
 import pytest
 
 import isomould
-from museum import SMALL, write_project
+from museum import DELIVERED, write_project
 
 
 @pytest.fixture(scope="session")
 def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A delivered small project with sheets and bars in stock; copy it before changing it."""
+    """A small project, delivered with sheets, bars, R12 twins and a datum; copy it before changing it."""
     folder = tmp_path_factory.mktemp("built")
-    project = write_project(folder / "small.toml", SMALL)
+    project = write_project(folder / "small.toml", DELIVERED)
     return isomould.build(project, folder / "small", run=isomould.Run(effort="quick", jobs=1)).folder
 
 

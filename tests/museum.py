@@ -214,6 +214,17 @@ def changed(data: dict[str, Any], **tables: dict[str, Any]) -> dict[str, Any]:
     return {**data, **{name: {**data.get(name, {}), **keys} for name, keys in tables.items()}}
 
 
+UTM = {"origin": ["691608.123 m", "5334765.4567 m", "519.25 m"], "rotation_deg": 33.5}
+"""A datum far from the project's origin."""
+
+DELIVERED = changed(
+    SMALL,
+    project={"number": "A-7", "drawing": "Süd № 2", "phase": "1", "datum": UTM},
+    deliver={"dxf": ["R2010", "R12"], "nc1_mass": "kg/m2"},
+)
+"""What the session's delivered folder is made of: all that machines and the site get."""
+
+
 def write_project(path: Path, data: dict[str, Any]) -> Path:
     """Write the tables of a project as TOML."""
     path.write_text("".join(_lines(data)), encoding="utf-8")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from museum import SMALL
+from museum import DELIVERED
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -16,7 +16,7 @@ def files(folder: Path) -> dict[str, bytes]:
 
 @pytest.mark.slow
 def test_two_builds_are_the_same_bytes(project_file, tmp_path, built_folder):
-    project = project_file(SMALL)
+    project = project_file(DELIVERED)
     environment = {**os.environ, "PYTHONHASHSEED": "4711", "TZ": "Pacific/Apia", "LC_ALL": "C"}
     command = [sys.executable, "-m", "isomould", "build", project, "--out", tmp_path / "other"]
     options = ["--effort", "quick", "--jobs", "2", "--quiet"]

@@ -7,13 +7,13 @@ import shutil
 import pytest
 
 import isomould
-from museum import SMALL, changed, write_project
+from museum import DELIVERED, SMALL, changed, write_project
 
 
 @pytest.fixture(scope="module")
 def schedules(tmp_path_factory):
     folder = tmp_path_factory.mktemp("schedules")
-    project = write_project(folder / "small.toml", SMALL)
+    project = write_project(folder / "small.toml", DELIVERED)
     return isomould.schedule(project, folder / "out", run=isomould.Run(effort="quick", jobs=1)).folder
 
 

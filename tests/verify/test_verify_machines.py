@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from verify_museum import holding
 
-import isomould
 from isomould.documents.member_files import member_drawing
 from isomould.documents.nc_parts import Blank, nc_part, plate_profile
 from isomould.parts.catalogue import PlateSection
@@ -23,42 +22,29 @@ from isomould.verify.read.nc1 import read_nc1
 from isomould.verify.rules import judge
 from isomould.writers.dxf import write_dxf
 from isomould.writers.nc1 import NcOrder, write_nc1
-from museum import SMALL, changed, write_project
 
 BY_ID = {rule.id: rule for rule in RULES}
 CHECKS = ["V40", "V40f", "V42", "V42b", "V42c", "V42d", "V42e"]
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("machines")
-    data = changed(
-        SMALL,
-        project={"number": "A-7", "drawing": "Süd № 2", "phase": "1"},
-        deliver={"dxf": ["R2010", "R12"], "nc1_mass": "kg/m2", "strips": ["parallel"]},
-    )
-    project = write_project(folder / "small.toml", data)
-    return isomould.build(project, folder / "small", run=isomould.Run(effort="quick", jobs=1)).folder
-
-
 @pytest.fixture
-def folder(built, tmp_path):
-    return Path(shutil.copytree(built, tmp_path / "delivered"))
+def folder(built_folder, tmp_path):
+    return Path(shutil.copytree(built_folder, tmp_path / "delivered"))
 
 
 @pytest.mark.parametrize("rule", CHECKS)
-def test_the_good_folder_passes(built, rule):
-    found = judge(BY_ID[rule], Delivery(built))
+def test_the_good_folder_passes(built_folder, rule):
+    found = judge(BY_ID[rule], Delivery(built_folder))
     assert found.status == "pass", found
     assert found.count > 0
 
 
-def test_header_and_twins(built):
-    text = (built / "members" / "M01.nc1").read_bytes().decode("ascii")
+def test_header_and_twins(built_folder):
+    text = (built_folder / "members" / "M01.nc1").read_bytes().decode("ascii")
     assert text.startswith("ST\r\n  A-7\r\n  Sud No 2\r\n  1\r\n  M01\r\n")
-    twin = ezdxf.readfile(built / "r12" / "members" / "M01.dxf")
+    twin = ezdxf.readfile(built_folder / "r12" / "members" / "M01.dxf")
     assert twin.dxfversion == "AC1009"
-    assert {path.parent.name for path in built.glob("r12/*/*.dxf")} == {"panels", "members", "sheets", "strips"}
+    assert {path.parent.name for path in built_folder.glob("r12/*/*.dxf")} == {"panels", "members", "sheets", "strips"}
 
 
 def rewrite(pattern, change, where="members/M01.nc1"):

@@ -10,44 +10,34 @@ import numpy as np
 import pytest
 from verify_museum import edit_table
 
-import isomould
 from isomould.documents.info import DatumSettings
 from isomould.documents.setting_out import place
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
-from museum import SMALL, changed, write_project
 
 BY_ID = {rule.id: rule for rule in RULES}
 CHECKS = ["V46", "V46b", "V46c"]
-UTM = {"origin": ["691608.123 m", "5334765.4567 m", "519.25 m"], "rotation_deg": 33.5}
-
-
-@pytest.fixture(scope="module")
-def built(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("setting_out")
-    project = write_project(folder / "small.toml", changed(SMALL, project={"datum": UTM}))
-    return isomould.build(project, folder / "small", run=isomould.Run(effort="quick", jobs=1)).folder
 
 
 @pytest.fixture
-def folder(built, tmp_path):
-    return Path(shutil.copytree(built, tmp_path / "delivered"))
+def folder(built_folder, tmp_path):
+    return Path(shutil.copytree(built_folder, tmp_path / "delivered"))
 
 
 @pytest.mark.parametrize("rule", CHECKS)
-def test_the_good_folder_passes(built, rule):
-    found = judge(BY_ID[rule], Delivery(built))
+def test_the_good_folder_passes(built_folder, rule):
+    found = judge(BY_ID[rule], Delivery(built_folder))
     assert found.status == "pass", found
     assert found.count > 0
 
 
-def test_a_micrometre_is_kept_at_utm_coordinates(built):
+def test_a_micrometre_is_kept_at_utm_coordinates(built_folder):
     """Distances between the printed work points are those of the model to the rounding of 0.001 mm."""
-    with (built / "tables" / "setting_out.csv").open(encoding="utf-8", newline="") as file:
+    with (built_folder / "tables" / "setting_out.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     found = np.array([[float(row[f"{axis}_mm"]) for axis in "xyz"] for row in rows])
-    with np.load(built / "model" / "geometry.npz") as file:
+    with np.load(built_folder / "model" / "geometry.npz") as file:
         nodes = file["nodes"]
     assert abs(found - [691608123, 5334765456.7, 519250]).max() < 20e3
     apart, meant = (np.linalg.norm(points[1:] - points[:-1], axis=1) for points in (found, nodes))
