@@ -152,6 +152,7 @@ def nest(
     effort: Effort = "normal",
     stop: Stop | None = None,
     progress: Progress | None = None,
+    jobs: int | None = None,
 ) -> Layout:
     """Nest a part list of any origin and write the layout as JSON.
 
@@ -167,10 +168,12 @@ def nest(
         A time limit, or a way to interrupt: the best layout so far is written and marked.
     progress
         Told iterations done, iterations in all, sheets so far and their lower bound.
+    jobs
+        Processes, None for one per core: they change the time, never the result.
     """
     stop = stop or Stop()
     given = read_instance(Path(instance))
-    layout = nest_sheets(given.parts, given.stock, Search(effort, progress, stop))
+    layout = nest_sheets(given.parts, given.stock, Search(effort, progress, stop, jobs))
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
     replace_file(Path(out), layout_to_json(layout).encode())
     return layout

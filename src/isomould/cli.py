@@ -138,12 +138,13 @@ def verify(folder: Path) -> None:
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Layout file (JSON) to write.")
 @click.option("--effort", type=_EFFORT, default="normal", show_default=True)
 @click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
-def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None) -> None:
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; they change the time, not the layout.")
+def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None, jobs: int | None) -> None:
     """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
     stop = Stop(time_limit)
     signal.signal(signal.SIGINT, stop.interrupt)
     click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
-    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()))
+    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()), jobs)
     _say(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
         f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"

@@ -37,15 +37,18 @@ def one_by_one(function: Callable[[Item], Result], items: Sequence[Item]) -> lis
 
 
 @contextmanager
-def workers(jobs: int | None = None) -> Generator[Spread]:
-    """Give a `Spread` over `jobs` processes; None takes one per core, 1 stays in this process."""
+def workers(jobs: int | None = None, prepare: Callable[[], None] | None = None) -> Generator[Spread]:
+    """Give a `Spread` over `jobs` processes; None takes one per core, 1 stays in this process.
+
+    `prepare` runs once in every process before its work begins; not in this one.
+    """
     count = jobs or os.cpu_count() or 1
     if count == 1:
         yield one_by_one
         return
     # Forked workers start at once; other systems have no safe fork.
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
-    pool = ProcessPoolExecutor(count, context, initializer=_leave_signals_to_the_parent)
+    pool = ProcessPoolExecutor(count, context, initializer=_begin, initargs=(prepare,))
     try:
         list(pool.map(abs, range(count)))
         yield partial(_spread, pool, count)
@@ -69,6 +72,9 @@ def _spread(
     return list(pool.map(function, items, chunksize=size))
 
 
-def _leave_signals_to_the_parent() -> None:
+def _begin(prepare: Callable[[], None] | None) -> None:
+    """Leave signals to the parent, and prepare."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if prepare is not None:
+        prepare()

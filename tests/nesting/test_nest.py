@@ -1,5 +1,7 @@
 """Layouts of sheets and blanks: everything through the checker, and good enough."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 from nesting_examples import GLASS, located, part_lists, racks, rows_of_trapezoids, trapezoid
 
 from isomould.errors import Refused
+from isomould.nesting import portfolio, search
 from isomould.nesting.checker import check_layout
 from isomould.nesting.files import layout_from_json, layout_to_json
 from isomould.nesting.layout import Part
@@ -45,6 +48,16 @@ def test_every_layout_of_columns_is_proved(parts: tuple[Part, ...], stock: Stock
 @given(part_lists(), racks(), st.sampled_from(["quick", "normal", "best"]))
 def test_very_many_layouts_are_proved(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
     prove(parts, stock, effort)
+
+
+@pytest.mark.parametrize("way", ["refilled", "generated"])
+def test_more_jobs_give_the_same_layout(way: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small pools, so that several are filled side by side, and windows or covers after them."""
+    monkeypatch.setattr(search, "POOL", 20)
+    monkeypatch.setattr(portfolio, "LOSS", 9.0 if way == "refilled" else 0.0)
+    parts = tuple(replace(part, quantity=2) for part in rows_of_trapezoids(3, 3, 10))
+    found = [layout_to_json(nest_sheets(parts, STOCK, Search("normal", jobs=jobs))) for jobs in (1, 2, 3)]
+    assert found[1:] == found[:1] * 2
 
 
 @settings(max_examples=50, deadline=None)

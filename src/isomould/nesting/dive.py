@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from isomould.arrays import Floats, Ints
-from isomould.nesting.cover import Rack, cost_of, fill_sheets, pieces_of
+from isomould.nesting.cover import Rack, cost_of, pieces_of
+from isomould.nesting.crew import Crew, Order
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
 from isomould.nesting.patterns import bound_pattern
 from isomould.nesting.search import Effort, Found, Search
@@ -50,6 +51,7 @@ class _Dive:
     """What a dive knows; `worth` is the running mean of what the pieces are worth."""
 
     rack: Rack
+    crew: Crew
     master: Master
     worth: Floats
     chance: np.random.Generator
@@ -63,9 +65,9 @@ class _Use:
     amount: float
 
 
-def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> Found:
+def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
     """Better a first filling, for stock without limits."""
-    state = _Dive(rack, make_master(counts), rack.areas, np.random.default_rng(0))
+    state = _Dive(rack, crew, make_master(counts), rack.areas, np.random.default_rng(0))
     add_plans(state.master, first)
     best = first
     for done in range(ROUNDS[task.effort]):
@@ -87,7 +89,8 @@ def _learn(state: _Dive, solution: Solution, done: int) -> None:
 def _cover(state: _Dive, counts: Ints) -> list[SheetPlan]:
     """Cover the counts chunk by chunk, and add what comes of it to the programme."""
     spread = 1 + SPREAD * state.chance.standard_normal(len(counts))
-    plans = [plan for share in _shares(state, counts) for plan in fill_sheets(state.rack, share, state.worth * spread)]
+    orders = [Order(share, state.worth * spread, state.rack.stock) for share in _shares(state, counts)]
+    plans = [plan for filled in state.crew(orders) for plan in filled]
     add_plans(state.master, plans)
     return plans
 

@@ -16,6 +16,7 @@ from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cover import Rack, cost_of, pieces_of
+from isomould.nesting.crew import Crew
 from isomould.nesting.search import Found, Search
 from isomould.nesting.sheets import Frame, SheetPlan, Zone, take_once
 from isomould.nesting.strips import Priced, price, trace
@@ -85,7 +86,7 @@ def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
     return Stacks(heights, best, last)
 
 
-def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search) -> Found:
+def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, _: Crew) -> Found:
     """Better a first filling, for stock without limits."""
     plans, mean = first, np.zeros(0)
     for done in range(ROUNDS):

@@ -5,6 +5,7 @@ from dataclasses import replace
 from isomould.arrays import Ints
 from isomould.nesting import dive, patterns
 from isomould.nesting.cover import PLENTY, Rack
+from isomould.nesting.crew import Crew, gather
 from isomould.nesting.search import Found, Search, first_sheets, improve
 
 LOSS = 1.08
@@ -18,11 +19,16 @@ def find_plans(rack: Rack, counts: Ints, task: Search) -> Found:
     do not stack are to blame: columns are generated, unless the search is to be quick, the rack has limits or there
     are thousands of different parts. The best effort then fills the worst sheets again.
     """
-    first = first_sheets(rack, counts, task)
+    with gather(rack, task.jobs) as crew:
+        return _find(rack, counts, task, crew)
+
+
+def _find(rack: Rack, counts: Ints, task: Search, crew: Crew) -> Found:
+    first = first_sheets(rack, counts, task, crew)
     if task.effort == "quick" or len(first) <= LOSS * rack.goal or rack.stock.min() < PLENTY or len(counts) > dive.MOST:
-        return improve(rack, first, counts, task)
+        return improve(rack, first, counts, task, crew)
     generate = patterns.find_sheets if patterns.worth_trying(counts) else dive.dive
-    found = generate(rack, first, counts, task)
+    found = generate(rack, first, counts, task, crew)
     if not found.ended or task.effort != "best":
         return found
-    return replace(improve(rack, found.plans, counts, task), pattern_bound=found.pattern_bound)
+    return replace(improve(rack, found.plans, counts, task, crew), pattern_bound=found.pattern_bound)

@@ -11,7 +11,8 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Ints
-from isomould.nesting.cover import Rack, area_of, cost_of, fill_sheets, pieces_of, without
+from isomould.nesting.cover import PLENTY, Rack, area_of, cost_of, fill_sheets, pieces_of, without
+from isomould.nesting.crew import Crew, Order
 from isomould.nesting.sheets import SheetPlan
 
 Effort = Literal["quick", "normal", "best"]
@@ -19,8 +20,14 @@ Effort = Literal["quick", "normal", "best"]
 ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 2, "best": 8}
 """Re-fillings per sheet."""
 
-CHUNK = 700
-"""Pieces that a first filling sees; each chunk sees all heights."""
+POOL = 700
+"""Pieces that a filling sees at a time; each pool has all heights."""
+
+KEPT = 0.7
+"""Part of the sheets of a pool that stay, the fullest ones; what lies on the others goes into the next pool."""
+
+LANES = 2
+"""Pools that are filled side by side, if there are enough pieces."""
 
 HASTE = 60
 """Pieces that it sees once the search was told to stop."""
@@ -28,11 +35,17 @@ HASTE = 60
 WINDOW = 6
 """Sheets emptied at a time."""
 
+WINDOWS = 2
+"""Such windows that are filled again side by side."""
+
 SPREAD = 0.05
 """Relative standard deviation of the worth of a part in a re-filling."""
 
 FAVOUR = 0.3
-"""How much more than by its area a large part is worth at first, so that small ones are left to fill up."""
+"""How much more than by its area a large part is worth in the last pool, so that small ones are left to fill up."""
+
+POOL_FAVOUR = 0.1
+"""The same in pools of which only the fullest sheets stay."""
 
 MOST_FAVOUR = 0.8
 """The same at most, in a re-filling."""
@@ -43,11 +56,15 @@ Progress = Callable[[int, int, int, int], None]
 
 @dataclass(frozen=True)
 class Search:
-    """How long to search, whom to tell, and whom to ask whether to stop."""
+    """How long to search, whom to tell, and whom to ask whether to stop.
+
+    `jobs` processes (None: one per core) change the time, never the result.
+    """
 
     effort: Effort = "normal"
     progress: Progress | None = None
     should_stop: Callable[[], bool] | None = None
+    jobs: int | None = 1
 
     @property
     def stops(self) -> bool:
@@ -69,54 +86,92 @@ class Found:
     pattern_bound: int | None = None
 
 
-def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search) -> Found:
+def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
     """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
-    total = round(ROUNDS[task.effort] * len(plans))
-    for done in range(total):
+    total, windows = round(ROUNDS[task.effort] * len(plans)), _windows_at_once(rack, plans)
+    for done in range(0, total, windows):
         if len(plans) <= rack.goal:
             break
         if task.stops:
             return Found(plans, ended=False)
-        plans = _refill(rack, plans, counts, chance)
-        task.tell(done + 1, total, len(plans), rack.goal)
+        plans = _refill(rack, plans, counts, chance, crew)
+        task.tell(min(done + windows, total), total, len(plans), rack.goal)
     return Found(plans, ended=True)
 
 
-def first_sheets(rack: Rack, counts: Ints, task: Search) -> list[SheetPlan]:
-    """Fill chunk by chunk; once told to stop, in chunks small enough to be done in no time."""
+def first_sheets(rack: Rack, counts: Ints, task: Search, crew: Crew) -> list[SheetPlan]:
+    """Fill pool by pool; once told to stop, small ones that are done in no time.
+
+    The fullest sheets of a pool stay. What lies on the others is drawn again, when there is more to choose from.
+    """
     plans: list[SheetPlan] = []
-    while counts.any():
-        chunk = _chunk(counts, HASTE if task.stops else CHUNK)
-        plans += fill_sheets(without(rack, plans), chunk, rack.areas ** (1 + FAVOUR))
-        counts = counts - chunk
+    left = counts
+    while left.sum() > POOL and rack.stock.min() >= PLENTY and not task.stops:
+        worth = rack.areas ** (1 + POOL_FAVOUR)
+        filled = crew([Order(pool, worth, rack.stock) for pool in _pools(left, POOL)[:LANES]])
+        plans += [plan for made in filled for plan in _fullest(rack, made)]
+        left = counts - pieces_of(plans, len(counts))
+    return _fill_up(rack, plans, left, task)
+
+
+def _fill_up(rack: Rack, plans: list[SheetPlan], left: Ints, task: Search) -> list[SheetPlan]:
+    """Place all that is left."""
+    while left.any():
+        pool = _pools(left, HASTE if task.stops else POOL)[0]
+        plans = plans + fill_sheets(without(rack, plans), pool, rack.areas ** (1 + FAVOUR))
+        left = left - pool
     return plans
 
 
-def _chunk(counts: Ints, size: int) -> Ints:
-    """Give every k-th piece, about `size` of them."""
+def _pools(counts: Ints, size: int) -> list[Ints]:
+    """Deal the pieces out in pools of about `size`."""
     pieces = np.repeat(np.arange(len(counts)), counts)
-    return np.bincount(pieces[:: -(-len(pieces) // size)], minlength=len(counts))
+    pools = -(-len(pieces) // size)
+    return [np.bincount(pieces[first::pools], minlength=len(counts)) for first in range(pools)]
 
 
-def _refill(rack: Rack, plans: list[SheetPlan], counts: Ints, chance: np.random.Generator) -> list[SheetPlan]:
-    """Empty some sheets and fill them again with other worths; keep the better ones."""
-    picked = _pick(rack, plans, chance)
-    kept = [plan for index, plan in enumerate(plans) if index not in picked]
-    old = [plans[index] for index in sorted(picked)]
-    spread = 1 + SPREAD * chance.standard_normal(len(rack.areas))
-    worth = spread * rack.areas ** (1 + chance.uniform(0, MOST_FAVOUR))
-    loose = counts - pieces_of(kept, len(counts))
-    new = fill_sheets(without(rack, kept), loose, worth, cost_of(old))
-    return kept + new if _merit(rack, new) >= _merit(rack, old) else plans
+def _fullest(rack: Rack, plans: Sequence[SheetPlan]) -> list[SheetPlan]:
+    """Keep the sheets that place most area for their cost."""
+    ranked = sorted(plans, key=lambda plan: -area_of(rack, plan) / plan.frame.cost)
+    return ranked[: max(1, round(KEPT * len(ranked)))]
 
 
-def _pick(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -> set[int]:
+def _refill(
+    rack: Rack, plans: list[SheetPlan], counts: Ints, chance: np.random.Generator, crew: Crew
+) -> list[SheetPlan]:
+    """Empty some sheets and fill them again with other worths, window by window; keep the better ones."""
+    windows = _windows(rack, plans, chance)
+    drawn = {id(plan) for window in windows for plan in window}
+    spare = without(rack, plans)
+    kept = [plan for plan in plans if id(plan) not in drawn]
+    missing = counts - pieces_of(plans, len(counts))
+    orders = [_order(spare, window, missing * (k == 0), chance) for k, window in enumerate(windows)]
+    for old, new in zip(windows, crew(orders), strict=True):
+        kept = kept + (new if _merit(rack, new) >= _merit(rack, old) else old)
+    return kept
+
+
+def _order(spare: Rack, window: list[SheetPlan], more: Ints, chance: np.random.Generator) -> Order:
+    """Ask for the pieces of a window and `more`, which found no place so far, at no higher cost than now."""
+    spread = 1 + SPREAD * chance.standard_normal(len(spare.areas))
+    worth = spread * spare.areas ** (1 + chance.uniform(0, MOST_FAVOUR))
+    used = np.bincount([plan.frame.stock for plan in window], minlength=len(spare.stock))
+    return Order(pieces_of(window, len(more)) + more, worth, spare.stock + used, cost_of(window))
+
+
+def _windows_at_once(rack: Rack, plans: Sequence[SheetPlan]) -> int:
+    """Give how many windows are emptied at once; one where sheets are limited, for both might take the last."""
+    return WINDOWS if rack.stock.min() >= PLENTY and len(plans) > WINDOWS * WINDOW else 1
+
+
+def _windows(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -> list[list[SheetPlan]]:
     """Draw sheets, the emptier the likelier."""
     waste = np.array([1 - area_of(rack, plan) / plan.frame.area for plan in plans])
     weight = np.maximum(waste, 0) ** 2 + 1e-3
-    drawn = chance.choice(len(plans), min(WINDOW, len(plans)), replace=False, p=weight / weight.sum())
-    return {int(index) for index in drawn}
+    windows = _windows_at_once(rack, plans)
+    drawn = chance.choice(len(plans), min(windows * WINDOW, len(plans)), replace=False, p=weight / weight.sum())
+    return [[plans[k] for k in sorted(drawn[first::windows].tolist())] for first in range(windows)]
 
 
 def _merit(rack: Rack, plans: Sequence[SheetPlan]) -> tuple[float, float, float]:

@@ -5,11 +5,12 @@ Between two uses the plan of a sheet is only who lies in which strip; `placing` 
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from isomould.arrays import Floats, Ints
-from isomould.nesting.strips import Block, Kind, Priced, price, trace
+from isomould.nesting.strips import Block, Item, Kind, Priced, price, trace
 
 LOOK_AHEAD = 3
 """Strips that a stack is planned ahead."""
@@ -47,6 +48,11 @@ class Frame:
     cost: float
     area: float
     kinds: tuple[Kind, ...]
+
+    @cached_property
+    def named(self) -> dict[tuple[int, int], Item]:
+        """All items by part and rotation."""
+        return {(item.part, item.shape.rotation_deg): item for kind in self.kinds for item in kind.items}
 
 
 @dataclass(frozen=True, eq=False)
