@@ -1,8 +1,4 @@
-"""Cutting patterns of bars by column generation (Gilmore and Gomory 1961), with the bound that it proves.
-
-Every round prices the best pattern around each size at once: one dynamic programme over the lengths tells them
-all. Sizes are rounded up to a grid, so that every pattern fits its bar; for the bound they are rounded down.
-"""
+"""Cutting patterns of bars by column generation (Gilmore and Gomory 1961)."""
 
 import math
 from collections.abc import Sequence
@@ -14,19 +10,8 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Bools, Floats, Ints
+from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
-
-FINEST = 120_000
-"""Steps into which the longest bar is divided at most for patterns."""
-
-TABLE = 16_000_000
-"""Pieces times steps that a pricing may look at."""
-
-PROOF = 20 * TABLE
-"""The same for a bound, of which there are few."""
-
-CLOSE = 1_000
-"""Steps per piece for a bound: rounding down costs half a thousandth of a bar in all."""
 
 MISSING = 100.0
 """What a piece costs that no pattern cuts, in costs of the dearest bar."""
@@ -34,8 +19,14 @@ MISSING = 100.0
 PRIMAL = 4
 """The solver's primal simplex: new columns leave the last basis feasible."""
 
-SLIGHT = 1e-7
-"""Gain of a pattern below which it is none, in costs of the dearest bar."""
+SLIGHT = 1e-6
+"""Of costs."""
+
+BRANCHES = 50
+"""Branches that whole numbers of patterns may take."""
+
+CHOICE = 400
+"""Patterns among which whole numbers are chosen, those that gain the most."""
 
 
 @dataclass(eq=False)
@@ -96,21 +87,23 @@ def _add_column(programme: Programme, cost: float, rows: object, values: object)
     programme.solver.addCol(cost, 0.0, highspy.kHighsInf, len(entries[0]), *entries)
 
 
-def generate(programme: Programme, need: Need, rounds: int, *, up: bool = True) -> Shares:
-    """Price patterns for what is left until no more can save a whole bar; at most so many rounds.
-
-    Sizes are rounded up to a grid, or else down: then those are kept that fit their bars truly.
-    """
+def generate(programme: Programme, need: Need, rounds: int, fineness: int | None) -> Shares:
+    """Price patterns for what is left until no more can save a whole bar; at most so many rounds."""
     _ask(programme, need)
     shares = _solve(programme, need)
     for _ in range(rounds):
         known = len(programme.patterns)
-        patterns = _price(programme, need, shares, up=up)
+        patterns = price(programme.rack, need, Values(shares.worth, programme.costs + shares.tolls), fineness)
         add_patterns(programme, patterns)
         if len(programme.patterns) == known or _is_settled(programme, shares, patterns):
             break
         shares = _solve(programme, need)
     return shares
+
+
+def whole(cost: float) -> int:
+    """Round a cost up to the next whole one."""
+    return max(math.ceil(cost - SLIGHT), 0)
 
 
 def _is_settled(programme: Programme, shares: Shares, patterns: Sequence[Pattern]) -> bool:
@@ -120,7 +113,7 @@ def _is_settled(programme: Programme, shares: Shares, patterns: Sequence[Pattern
         for pattern in patterns
     )
     cost = programme.top * shares.cost
-    return math.ceil(cost / max(over, 1.0) - SLIGHT) >= math.ceil(cost - SLIGHT)
+    return whole(cost / max(over, 1.0)) >= whole(cost)
 
 
 def _ask(programme: Programme, need: Need) -> None:
@@ -130,10 +123,14 @@ def _ask(programme: Programme, need: Need) -> None:
     lower = np.concatenate([need.counts.astype(float), np.full(kinds, -highspy.kHighsInf)])
     upper = np.concatenate([endless, need.limits.astype(float)])
     programme.solver.changeRowsBounds(sizes + kinds, np.arange(sizes + kinds, dtype=np.int32), lower, upper)
-    barred = [bool((pattern.takes > need.counts).any()) for pattern in programme.patterns]
-    most = np.concatenate([endless, np.where(barred, 0.0, highspy.kHighsInf)])
+    most = np.concatenate([endless, np.where(_fits(programme, need), highspy.kHighsInf, 0.0)])
     columns = np.arange(len(most), dtype=np.int32)
     programme.solver.changeColsBounds(len(most), columns, np.zeros(len(most)), most)
+
+
+def _fits(programme: Programme, need: Need) -> Bools:
+    """Tell of every pattern whether it takes no more than what is left."""
+    return np.array([not (pattern.takes > need.counts).any() for pattern in programme.patterns], dtype=np.bool_)
 
 
 def _solve(programme: Programme, need: Need) -> Shares:
@@ -144,86 +141,33 @@ def _solve(programme: Programme, need: Need) -> Shares:
     return Shares(cost, uses, np.maximum(dual[:sizes], 0.0), np.maximum(-dual[sizes:], 0.0))
 
 
-def _price(programme: Programme, need: Need, shares: Shares, *, up: bool) -> list[Pattern]:
-    """Give the patterns that are worth more than their bars: the best of all and the best around every size."""
-    rack = programme.rack
-    copies = _copies(rack, need.counts, shares.worth)
-    step = _step(rack, min(FINEST, TABLE // max(int(copies.sum()), 1)))
-    sizes = -(-rack.sizes // step) if up else rack.sizes // step
-    items = np.repeat(np.arange(len(sizes)), copies)
-    table = items, _take_all(items, sizes, shares.worth, int(rack.rooms.max()) // step)
-    found = list[Pattern]()
-    for kind in np.flatnonzero(need.limits > 0).tolist():
-        room = int(rack.rooms[kind])
-        takes = _patterns(room // step, np.flatnonzero(copies), table, sizes)
-        gain = takes @ shares.worth - programme.costs[kind] - shares.tolls[kind]
-        fits = (takes @ rack.sizes <= room) & (takes <= need.counts).all(axis=1)
-        found += [Pattern(kind, row) for row in takes[fits & (gain > SLIGHT)]]
-    return found
+def choose_whole(programme: Programme, need: Need, shares: Shares) -> list[Pattern]:
+    """Give the cheapest bars of the best known patterns that cover a need, as far as few branches tell; or none."""
+    fitting = [pattern for pattern, fits in zip(programme.patterns, _fits(programme, need), strict=True) if fits]
+    gains = [float(p.takes @ shares.worth - programme.costs[p.kind] - shares.tolls[p.kind]) for p in fitting]
+    patterns = [fitting[k] for k in np.argsort(-np.array(gains), kind="stable")[:CHOICE]]
+    if not patterns:
+        return []
+    takes = np.array([pattern.takes for pattern in patterns]).T
+    kinds = np.array([[pattern.kind == kind for pattern in patterns] for kind in range(len(need.limits))])
+    rows = [LinearConstraint(takes, need.counts, np.inf), LinearConstraint(kinds.astype(float), 0, need.limits)]
+    found = milp(
+        programme.costs[[pattern.kind for pattern in patterns]],
+        integrality=np.ones(len(patterns), dtype=np.int64),
+        bounds=Bounds(0, np.inf),
+        constraints=rows,
+        options={"node_limit": BRANCHES, "mip_rel_gap": 0.0},
+    )
+    if found.x is None:
+        return []
+    return _trimmed(np.repeat(np.arange(len(patterns)), np.rint(found.x).astype(np.int64)), patterns, need)
 
 
-def _copies(rack: BarRack, counts: Ints, worth: Floats) -> Ints:
-    """Give how many pieces of every size the longest bar may hold, of those that are worth anything."""
-    return np.where(worth > 0, np.minimum(counts, rack.rooms.max() // rack.sizes), 0)
-
-
-def _step(rack: BarRack, steps: int) -> int:
-    """Give micrometres to a step of a grid of so many steps, or more if a common divisor makes it exact."""
-    return max(int(np.gcd.reduce(rack.sizes)), -(-int(rack.rooms.max()) // steps))
-
-
-def _take_all(items: Ints, sizes: Ints, worth: Floats, room: int) -> Bools:
-    """Solve the bounded knapsack for every room up to this: whether an item is taken, (items, room + 1)."""
-    best = np.zeros(room + 1)
-    taken = np.zeros((len(items), room + 1), dtype=np.bool_)
-    for row, item in zip(taken, items.tolist(), strict=True):
-        _take(best, int(sizes[item]), float(worth[item]), row)
-    return taken
-
-
-def _take(best: Floats, size: int, worth: float, took: Bools) -> None:
-    """Let every room take an item or leave it; ties leave it."""
-    with_it = best[: len(best) - size] + worth
-    np.greater(with_it, best[size:] + 1e-12, out=took[size:])
-    np.copyto(best[size:], with_it, where=took[size:])
-
-
-def _patterns(room: int, asked: Ints, table: tuple[Ints, Bools], sizes: Ints) -> Ints:
-    """Trace the best pattern of a room, and the best ones that hold each size asked; (patterns, sizes)."""
-    first = asked[sizes[asked] <= room]
-    takes = np.zeros((len(first) + 1, len(sizes)), dtype=np.int64)
-    takes[np.arange(len(first)), first] = 1
-    left = np.append(room - sizes[first], room)
-    for item, row in zip(table[0][::-1].tolist(), table[1][::-1], strict=True):
-        took = row[left]
-        takes[took, item] += 1
-        left[took] -= sizes[item]
-    return takes
-
-
-def bound_cost(rack: BarRack, costs: Floats, need: Need, worths: Sequence[Floats]) -> float:
-    """Bound the cost of any bars that serve a need, by what pieces are worth.
-
-    Whatever a piece of every size is worth, the bars must be able to hold what all are worth together. The least
-    whole numbers of bars that can, for each of the worths and for the lengths, are a small integer programme; of a
-    single kind of bar they are Farley's bound (1990). It is 0 if there are too few bars.
-    """
-    rows = [rack.rooms.astype(np.float64), *(_most_worth(rack, need, worth) for worth in worths)]
-    asked = [float(worth @ need.counts) for worth in (rack.sizes, *worths)]
-    scale = np.array([max(float(row.max()), 1e-12) for row in rows])
-    enough = LinearConstraint(np.array(rows) / scale[:, None], np.array(asked) / scale - SLIGHT, np.inf)
-    most = np.minimum(need.limits, need.counts.sum()).astype(np.float64)
-    found = milp(costs, integrality=np.ones(len(costs), dtype=np.int64), bounds=Bounds(0, most), constraints=enough)
-    return 0.0 if found.mip_dual_bound is None else float(found.mip_dual_bound)
-
-
-def _most_worth(rack: BarRack, need: Need, worth: Floats) -> Floats:
-    """Give the most that every kind of bar can hold; sizes are rounded down, so it may be a little more."""
-    copies = _copies(rack, need.counts, worth)
-    steps = max(FINEST, CLOSE * int(need.counts.sum()))
-    step = _step(rack, min(steps, PROOF // max(int(copies.sum()), 1)))
-    best = np.zeros(int(rack.rooms.max()) // step + 1)
-    took = np.zeros(len(best), dtype=np.bool_)
-    for item in np.repeat(np.arange(len(copies)), copies).tolist():
-        _take(best, int(rack.sizes[item] // step), float(worth[item]), took)
-    return best[rack.rooms // step]
+def _trimmed(chosen: Ints, patterns: Sequence[Pattern], need: Need) -> list[Pattern]:
+    """Take away what patterns cut too much."""
+    left, bars = need.counts, list[Pattern]()
+    for k in chosen.tolist():
+        takes = np.minimum(patterns[k].takes, left)
+        left = left - takes
+        bars += [Pattern(patterns[k].kind, takes)] if takes.any() else []
+    return bars

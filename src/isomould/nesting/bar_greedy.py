@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from isomould.nesting.bar_rack import BarRack, Need, Pattern
+from isomould.arrays import Ints
+from isomould.nesting.bar_rack import BarRack, Need, Pattern, step_of
 
 FINEST = 60_000
 """Steps into which a bar is divided at most for subset sums, unless a common divisor makes fewer exact."""
@@ -45,6 +46,16 @@ def largest_first(rack: BarRack, need: Need) -> list[Pattern]:
     return patterns
 
 
+def fill(rack: BarRack, counts: Ints, kind: int, steps: int) -> Ints:
+    """Give the pieces (n,) of some that fill a bar most closely, on a grid of so many steps."""
+    step = step_of(rack, steps)
+    sizes = (-(-rack.sizes // step)).tolist()
+    pieces = np.repeat(np.arange(len(counts)), counts).tolist()
+    reaches = _reach(pieces, int(rack.rooms[kind]) // step, sizes)
+    chosen = [pieces[place] for place in _trace(pieces, reaches, sizes)]
+    return np.bincount(chosen, minlength=len(counts)).astype(np.int64)
+
+
 def _pieces(need: Need) -> list[int]:
     """Give the number of its size for every piece, the longest first."""
     return np.repeat(np.arange(len(need.counts)), need.counts).tolist()
@@ -66,26 +77,31 @@ def _pattern(rack: BarRack, kind: int, pieces: Sequence[int]) -> Pattern:
 
 def _steps(rack: BarRack) -> tuple[int, list[int]]:
     """Give the grid of the subset sums, exact if the sizes have a coarse common divisor, and the sizes on it."""
-    exact = int(np.gcd.reduce(rack.sizes))
-    step = max(exact, -(-int(rack.rooms.max()) // FINEST))
+    step = step_of(rack, FINEST)
     return step, (-(-rack.sizes // step)).tolist()
 
 
 def _fill(left: Sequence[int], room: int, steps: Sequence[int]) -> list[int]:
-    """Fill one bar, places in `left`: bit k of a reach is set if the pieces so far can fill k steps exactly."""
-    rest = room - steps[left[0]]
-    mask = (1 << (max(rest, 0) + 1)) - 1
+    """Fill one bar, places in `left`, the first of them for certain."""
+    reaches = _reach(left[1:], room - steps[left[0]], steps)
+    return [0, *(place + 1 for place in _trace(left[1:], reaches, steps))]
+
+
+def _reach(pieces: Sequence[int], room: int, steps: Sequence[int]) -> list[int]:
+    """Bit k of a reach is set if the pieces so far can fill k steps exactly; until they fill the room."""
+    mask = (1 << (max(room, 0) + 1)) - 1
     reaches = [1]
-    for piece in left[1:]:
-        reaches.append(reaches[-1] | (reaches[-1] << steps[piece]) & mask)
-        if reaches[-1] >> rest if rest > 0 else True:
+    for piece in pieces:
+        if reaches[-1] >> max(room, 0):
             break
-    return [0, *_trace(left, reaches, steps)]
+        reaches.append(reaches[-1] | (reaches[-1] << steps[piece]) & mask)
+    return reaches
 
 
-def _trace(left: Sequence[int], reaches: Sequence[int], steps: Sequence[int]) -> Iterator[int]:
+def _trace(pieces: Sequence[int], reaches: Sequence[int], steps: Sequence[int]) -> Iterator[int]:
+    """Give the places of pieces that reach the farthest."""
     target = reaches[-1].bit_length() - 1
     for place in range(len(reaches) - 1, 0, -1):
         if not reaches[place - 1] >> target & 1:
-            yield place
-            target -= steps[left[place]]
+            yield place - 1
+            target -= steps[pieces[place - 1]]

@@ -69,17 +69,6 @@ def less(need: Need, patterns: list[Pattern]) -> Need:
     return Need(counts, limits)
 
 
-def area_bound(rack: BarRack, counts: Ints) -> int:
-    """Bound the number of bars by length, long pieces counted apart (Martello and Toth 1990, bound L2)."""
-    room, sizes = int(rack.rooms.max()), np.repeat(rack.sizes, counts)
-    limits = np.unique(np.append(sizes[2 * sizes <= room], 0))
-    return max(_bound_from(sizes, room, int(limit)) for limit in limits)
-
-
-def _bound_from(sizes: Ints, room: int, limit: int) -> int:
-    """Count pieces above room - limit as full bars, leave out those below limit, spread the others."""
-    alone = int(np.count_nonzero(sizes > room - limit))
-    large = sizes[(2 * sizes > room) & (sizes <= room - limit)]
-    small = int(sizes[(sizes >= limit) & (2 * sizes <= room)].sum())
-    over = small - (len(large) * room - int(large.sum()))
-    return alone + len(large) + max(-(-over // room), 0)
+def step_of(rack: BarRack, steps: int) -> int:
+    """Give what a step of a grid of so many steps is, or more if a common divisor makes it exact."""
+    return max(int(np.gcd.reduce(rack.sizes)), -(-int(rack.rooms.max()) // max(steps, 1)))

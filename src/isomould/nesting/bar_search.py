@@ -1,21 +1,18 @@
 """The methods for bars, tried in turn until the bound is met: two greedy ones, then patterns and a dive."""
 
-import math
-from dataclasses import dataclass
-
 import numpy as np
 
-from isomould.arrays import Floats, Ints
-from isomould.nesting.bar_columns import Programme, Shares, bound_cost, generate, make_programme
+from isomould.nesting.bar_bound import ROUNDS, BarBound, Demand, Proof, least_bars, length_bound, linear_bound
+from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, choose_whole, generate, make_programme, whole
 from isomould.nesting.bar_greedy import first_fit, largest_first
-from isomould.nesting.bar_rack import BarRack, Need, Pattern, area_bound, cost_of, less, merit, sum_of
-from isomould.nesting.layout import BoundKind
+from isomould.nesting.bar_rack import BarRack, Need, Pattern, cost_of, less, merit, sum_of
+from isomould.nesting.bar_squeeze import pack, squeeze
 
 MOST = 2_000
 """Different sizes up to which patterns pay."""
 
-ROUNDS = 60
-"""Rounds of pricing before the dive."""
+GRIDS = (1, 4, 16)
+"""Finenesses of the grids on which patterns are priced, one after another where that may prove or save a bar."""
 
 AGAIN = 6
 """Rounds of pricing after each step of the dive."""
@@ -23,32 +20,78 @@ AGAIN = 6
 SHARE = 0.1
 """Part of the bars still to come that a step of the dive fixes, if none is used whole."""
 
-SLIGHT = 1e-6
+FEW = 15.0
+"""Bars still to come of which whole numbers are chosen at once."""
+
+MIXES = 12
+"""Mixes of bars that are tried."""
 
 FEWER = 1e-4
 """What a bar costs beside its price, in costs of the dearest."""
 
 
-@dataclass(frozen=True)
-class BarBound:
-    """No cutting of the same pieces takes fewer bars or costs less; `kind` tells what proves the number."""
+def find_bars(rack: BarRack, need: Need, proof: Proof | None = None) -> tuple[list[Pattern], BarBound]:
+    """Cut a need from bars at the least cost; pieces may be left if there are too few bars.
 
-    bars: int
-    cost: float
-    kind: BoundKind
-
-
-def find_bars(rack: BarRack, need: Need) -> tuple[list[Pattern], BarBound]:
-    """Cut a need from bars at the least cost; pieces may be left if there are too few bars."""
+    Bounds hold for the rack of the proof if it is another.
+    """
+    proof = proof or Proof(rack)
+    bound = length_bound(proof, need.counts)
     patterns = _best(rack, [first_fit(rack, need), largest_first(rack, need)])
-    bound = _length_bound(rack, need.counts)
+    patterns = _squeezed(rack, patterns, need, bound)
     if not _meets(rack, patterns, need, bound) and len(rack.sizes) <= MOST:
-        programme = make_programme(rack, rack.costs, patterns)
-        bound = _linear_bound(programme, need, bound)
-        if not _meets(rack, patterns, need, bound):
-            patterns = _dive(_counting(programme), need, patterns, bound)
+        patterns, bound = _by_columns(proof, rack, need, patterns, bound)
     placed = Need(sum_of(rack, patterns), need.limits)
-    return patterns, bound if _serves(patterns, need) else _bound(rack, placed, patterns)
+    return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns)
+
+
+def _by_columns(
+    proof: Proof, rack: BarRack, need: Need, patterns: list[Pattern], bound: BarBound
+) -> tuple[list[Pattern], BarBound]:
+    """Bound by patterns, and better some bars by the cheapest mixes that may hold all, or by a dive."""
+    programme = make_programme(rack, rack.costs, patterns)
+    bound, demand, fineness = _settle(programme, proof, need, bound)
+    if demand is not None and not _meets(rack, patterns, need, bound):
+        patterns = _mixed(rack, need, patterns, demand)
+    if not _meets(rack, patterns, need, bound):
+        patterns = _dive(_counting(programme), need, patterns, bound, fineness)
+    return _squeezed(rack, patterns, need, bound), bound
+
+
+def _settle(programme: Programme, proof: Proof, need: Need, bound: BarBound) -> tuple[BarBound, Demand | None, int]:
+    """Refine the grid until patterns can meet the bound in fractions, or are proved to cost more."""
+    demand, several = None, len(programme.costs) > 1
+    for fineness in GRIDS:
+        shares = generate(programme, need, ROUNDS, fineness)
+        least = whole(programme.top * shares.cost)
+        if least > bound.cost or several:
+            bound, demand = linear_bound(proof, _used(programme, shares), need, bound, fineness)
+        if least <= bound.cost or several:
+            return bound, demand, fineness
+    return bound, demand, GRIDS[-1]
+
+
+def _mixed(rack: BarRack, need: Need, best: list[Pattern], demand: Demand) -> list[Pattern]:
+    """Try the cheapest whole numbers of bars that may hold all, one after another."""
+    numbers = None
+    for _ in range(MIXES):
+        cost, numbers = least_bars(demand, rack.costs, numbers)
+        if numbers is None or (_serves(best, need) and (cost, numbers.sum()) >= merit(rack, best)[1:]):
+            break
+        if bars := pack(rack, need, numbers):
+            return bars
+    return best
+
+
+def _squeezed(rack: BarRack, patterns: list[Pattern], need: Need, bound: BarBound) -> list[Pattern]:
+    """Save bars where it matters: in number if all cost the same."""
+    if len(rack.costs) > 1 or not _serves(patterns, need) or _meets(rack, patterns, need, bound):
+        return patterns
+    return squeeze(rack, patterns, bound.bars)
+
+
+def _used(programme: Programme, shares: Shares) -> list[Pattern]:
+    return [programme.patterns[k] for k in np.flatnonzero(shares.uses > SLIGHT)]
 
 
 def _counting(programme: Programme) -> Programme:
@@ -64,58 +107,34 @@ def _best(rack: BarRack, plans: list[list[Pattern]]) -> list[Pattern]:
 
 
 def _meets(rack: BarRack, patterns: list[Pattern], need: Need, bound: BarBound) -> bool:
-    """Tell whether nothing can be better: all pieces, at the bound of the cost, and no bar more than its own bound."""
-    return _serves(patterns, need) and cost_of(rack, patterns) <= bound.cost and len(patterns) <= bound.bars
+    """Tell whether nothing can be better: all pieces, at the bound of the cost, and the fewest bars at that."""
+    return _serves(patterns, need) and (cost_of(rack, patterns), len(patterns)) <= (bound.cost, bound.fewest)
 
 
 def _serves(patterns: list[Pattern], need: Need) -> bool:
     return sum(int(pattern.takes.sum()) for pattern in patterns) == need.counts.sum()
 
 
-def _bound(rack: BarRack, need: Need, patterns: list[Pattern]) -> BarBound:
+def _bound(proof: Proof, need: Need, patterns: list[Pattern]) -> BarBound:
     """Bound by length, and by patterns if there are not too many sizes."""
-    bound = _length_bound(rack, need.counts)
-    small = 0 < len(rack.sizes) <= MOST
-    return _linear_bound(make_programme(rack, rack.costs, patterns), need, bound) if small else bound
+    bound = length_bound(proof, need.counts)
+    small = 0 < len(need.counts) <= MOST
+    return linear_bound(proof, patterns, need, bound, GRIDS[0])[0] if small else bound
 
 
-def _length_bound(rack: BarRack, counts: Ints) -> BarBound:
-    bars = area_bound(rack, counts)
-    return BarBound(bars, bars * float(rack.costs.min()), "area")
-
-
-def _linear_bound(programme: Programme, need: Need, known: BarBound) -> BarBound:
-    """Better a bound by the programme's worths, and by those of another that counts bars if they differ in cost."""
-    rack, ones = programme.rack, np.ones(len(programme.costs))
-    worths = [_worth(programme, need)]
-    if len(ones) > 1:
-        worths.append(_worth(make_programme(rack, ones, programme.patterns), need))
-    cost, bars = (_whole(bound_cost(rack, costs, need, worths)) for costs in (rack.costs, ones))
-    kind: BoundKind = "lp" if bars > known.bars else "area"
-    return BarBound(max(bars, known.bars), max(float(cost), known.cost), kind)
-
-
-def _worth(programme: Programme, need: Need) -> Floats:
-    """Give what a piece of every size is worth, priced more closely if that may prove more."""
-    shares = generate(programme, need, ROUNDS)
-    costs = programme.top * programme.costs
-    if _whole(bound_cost(programme.rack, costs, need, [shares.worth])) < _whole(programme.top * shares.cost):
-        shares = generate(programme, need, ROUNDS, up=False)
-    return shares.worth
-
-
-def _whole(cost: float) -> int:
-    return max(math.ceil(cost - SLIGHT), 0)
-
-
-def _dive(programme: Programme, need: Need, best: list[Pattern], bound: BarBound) -> list[Pattern]:
-    """Fix bars step by step, fill the rest greedily each time, and end when nothing better can come."""
+def _dive(programme: Programme, need: Need, best: list[Pattern], bound: BarBound, fineness: int) -> list[Pattern]:
+    """Fix bars step by step, fill the rest each time, and end when nothing better can come."""
     rack, left = programme.rack, need
-    fixed: list[Pattern] = []
+    fixed, few = list[Pattern](), FEW
     while left.counts.any() and not _meets(rack, best, need, bound):
-        shares = generate(programme, left, AGAIN if fixed else ROUNDS)
+        shares = generate(programme, left, AGAIN if fixed else ROUNDS, fineness)
+        if _serves(best, need) and _to_come(programme, shares, fixed) >= merit(rack, best)[1:]:
+            break
+        if (to_come := float(shares.uses.sum())) <= few:
+            few = to_come / 2
+            best = _best(rack, [best, fixed + choose_whole(programme, left, shares)])
         new = _fix(programme, shares, left)
-        if not new or (_serves(best, need) and _to_come(programme, shares, fixed) >= merit(rack, best)[1:]):
+        if not new:
             break
         fixed, left = fixed + new, less(left, new)
         best = _best(rack, [best, fixed, fixed + first_fit(rack, left), fixed + largest_first(rack, left)])
@@ -125,17 +144,17 @@ def _dive(programme: Programme, need: Need, best: list[Pattern], bound: BarBound
 def _to_come(programme: Programme, shares: Shares, fixed: list[Pattern]) -> tuple[float, int]:
     """Give the least cost and number of bars that can come of what is fixed."""
     costs = programme.rack.costs[[pattern.kind for pattern in programme.patterns[: len(shares.uses)]]]
-    cost = _whole(cost_of(programme.rack, fixed) + float(shares.uses @ costs))
-    return cost, len(fixed) + _whole(float(shares.uses.sum()))
+    cost = whole(cost_of(programme.rack, fixed) + float(shares.uses @ costs))
+    return cost, len(fixed) + whole(float(shares.uses.sum()))
 
 
 def _fix(programme: Programme, shares: Shares, left: Need) -> list[Pattern]:
     """Give the bars that are used whole, or else those that are used most."""
-    whole = np.repeat(np.arange(len(shares.uses)), np.floor(shares.uses + SLIGHT).astype(np.int64))
+    entire = np.repeat(np.arange(len(shares.uses)), np.floor(shares.uses + SLIGHT).astype(np.int64))
     most = np.argsort(-shares.uses, kind="stable")[: np.count_nonzero(shares.uses > SLIGHT)]
-    enough = len(whole) or max(1, round(SHARE * float(shares.uses.sum())))
+    enough = len(entire) or max(1, round(SHARE * float(shares.uses.sum())))
     new: list[Pattern] = []
-    for index in (whole if len(whole) else most).tolist():
+    for index in (entire if len(entire) else most).tolist():
         pattern = programme.patterns[index]
         if len(new) < enough and left.limits[pattern.kind] > 0 and (pattern.takes <= left.counts).all():
             new.append(pattern)
