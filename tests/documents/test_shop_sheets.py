@@ -166,6 +166,23 @@ def test_every_location_is_in_the_arrangement(vault, books):
             assert row["location"] in shown or f"{row['mark']} {row['location']}" in shown
 
 
+@pytest.mark.parametrize("name", ["vault", "dome"])
+def test_every_line_is_numbered_and_every_panel_on_the_sheet_that_is_named(name, request):
+    delivery = request.getfixturevalue(name)
+    mesh, pages = delivery.design.kit.mesh, make_books(delivery)[-1].pages
+    shown = [texts(page) for page in pages]
+    for axis, letter in enumerate("ij"):
+        lines = {f"{letter}{k}" for k, count in enumerate(np.bincount(mesh.node_ij[:, axis])) if count > 1}
+        assert lines <= set(shown[0]) | set(shown[1])
+    start = shown[0].index("Strips") + 1
+    rows = [shown[0][k : k + 3] for k in range(start, len(shown[0]) - 3, 3)]
+    rows = [row for row in rows if all(re.fullmatch(r"\d+( to \d+)?", cell) for cell in row)]
+    named = {int(sheet): [[*map(int, re.findall(r"\d+", cell))] for cell in cells] for sheet, *cells in rows}
+    for where, at in zip(delivery.design.kit.panels.locations, mesh.face_ij.tolist(), strict=True):
+        (sheet,) = [s for s, spans in named.items() if all(r[0] <= k <= r[-1] for k, r in zip(at, spans, strict=True))]
+        assert where in shown[sheet - 1] or not any(where in page for page in shown[2 : 2 + len(named)])
+
+
 def test_holes_are_drawn_placed_and_listed(vault):
     kit, table = vault.design.kit, next(table for table in vault.schedules if table.name == "members")
     holes = (

@@ -9,11 +9,12 @@ from isomould.arrays import Floats, Ints
 from isomould.documents.shop.assembly import Drawn, assembly
 from isomould.documents.shop.development import Block, flat_faces, lay_block, usual_size
 from isomould.documents.shop.labels import Labels, face_names, make_names, owners
-from isomould.documents.shop.page import NORMAL, SMALLEST, Item, Line, Page, Text, paper_size, point
+from isomould.documents.shop.page import NORMAL, Item, Page, Text, paper_size
 from isomould.documents.shop.placing import place_all, within
 from isomould.documents.shop.rows import Row
+from isomould.documents.shop.system_lines import VIEWS, system_line_views
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
-from isomould.documents.shop.view import View, fit_scale, middle, scale_text
+from isomould.documents.shop.view import View, scale_text
 from isomould.form.mesh import Mesh
 from isomould.parts.kit import Kit
 
@@ -33,10 +34,13 @@ def arrangement_pages(
     marks
         Mark by location of all members and panels.
     """
+    developed, meetings = list(_developed(stationery, kit)), list(assembly(stationery, rows, marks))
+    first = 1 + len(VIEWS)
+    index = [("Sheet", "Rows", "Strips"), *((str(k), *shown) for k, (shown, _) in enumerate(developed, start=first))]
     drawn = [
-        _plan(stationery, kit.mesh),
-        *_developed(stationery, kit),
-        *assembly(stationery, rows, marks),
+        *system_line_views(stationery, kit.mesh, index),
+        *(sheet for _, sheet in developed),
+        *meetings,
     ]
     return tuple(
         finish(stationery, Subject(title, "", scale, k, len(drawn)), size, items)
@@ -44,43 +48,8 @@ def arrangement_pages(
     )
 
 
-def _plan(stationery: Stationery, mesh: Mesh) -> Drawn:
-    """Draw all system lines from above; numbers of parallels and generatrices stand at their ends."""
-    size = paper_size(stationery.paper or "A3", lying=True)
-    left, bottom, right, top = room(stationery, size)
-    flat = mesh.nodes[:, :2]
-    scale = fit_scale(np.ptp(flat, axis=0), (right - left - 16, top - bottom - 26))
-    view = View(scale, middle(flat), np.array([(left + right) / 2, (bottom + top) / 2]))
-    places = view.place(flat)
-    items: list[Item] = [Line("thin", ends) for ends in places[mesh.edges]]
-    caption = Text("Plan of the system lines, numbers of parallels (i) and generatrices (j)", (left, top - 2), NORMAL)
-    return "General arrangement", scale_text(scale), size, [*items, caption, *_numbers(mesh, places, [*items, caption])]
-
-
-def _numbers(mesh: Mesh, places: Floats, items: Sequence[Item]) -> list[Text]:
-    ways = [_ends(mesh, places, axis, number) for axis in (0, 1) for number in range(mesh.shape[axis])]
-    return place_all([way for way in ways if way], items, 0.4)
-
-
-def _ends(mesh: Mesh, places: Floats, axis: int, number: int) -> list[Text]:
-    """Places for the number of a parallel (axis 0) or generatrix (1) behind both of its ends."""
-    line = np.flatnonzero(mesh.node_ij[:, axis] == number)
-    line = line[np.argsort(mesh.node_ij[line, 1 - axis], kind="stable")]
-    if len(line) < 2:
-        return []
-    name, drop = f"{'ij'[axis]}{number}", np.array([0.0, -SMALLEST / 2])
-    found = list[Text]()
-    for end, inner in ((line[0], line[1]), (line[-1], line[-2])):
-        way = places[end] - places[inner]
-        unit = way / max(float(np.hypot(*way)), 1e-9)
-        found += [
-            Text(name, point(places[end] + reach * unit + drop), SMALLEST, "middle") for reach in (4.0, 7.0, 10.0)
-        ]
-    return found
-
-
-def _developed(stationery: Stationery, kit: Kit) -> Iterator[Drawn]:
-    """Draw the panels laid flat, as many on a sheet as can be read."""
+def _developed(stationery: Stationery, kit: Kit) -> Iterator[tuple[tuple[str, str], Drawn]]:
+    """Draw the panels laid flat, as many on a sheet as can be read, with the rows and strips that it shows."""
     size = paper_size(stationery.paper or "A3", lying=True)
     left, bottom, right, top = room(stationery, size)
     mesh, names, space = kit.mesh, make_names(kit), (right - left, top - bottom - 10.0)
@@ -92,7 +61,7 @@ def _developed(stationery: Stationery, kit: Kit) -> Iterator[Drawn]:
         for rows in _runs(mesh.face_ij[:, 0], per_sheet[1]):
             block = lay_block(mesh, flat, rows, columns)
             if block.faces:
-                yield _block_sheet(block, scale, size, (left, bottom, space), labels)
+                yield _shown(block, mesh), _block_sheet(block, scale, size, (left, bottom, space), labels)
 
 
 def _readable(side: float, text: float) -> float:
@@ -121,17 +90,21 @@ def _block_sheet(
     scale = next((s for s in _SCALES if s >= scale and (extent / s <= np.array(space)).all()), _SCALES[-1])
     middle_of = np.array([left + space[0] / 2, bottom + space[1] / 2])
     view = View(scale, (low + high) / 2, middle_of)
-    items: list[Item] = [Text(_caption(block, labels.mesh), (left, bottom + space[1] + 5), NORMAL)]
+    rows, strips = _shown(block, labels.mesh)
+    caption = f"Developed from outside: panels of rows {rows}, strips {strips}"
+    items: list[Item] = [Text(caption, (left, bottom + space[1] + 5), NORMAL)]
     for face, corners in zip(block.faces, block.corners, strict=True):
         outline = view.outline(corners, "thin")
         items += [outline, *place_all(_inside(face, outline.points, labels), [outline], 0.25)]
     return "General arrangement", scale_text(scale), size, items
 
 
-def _caption(block: Block, mesh: Mesh) -> str:
+def _shown(block: Block, mesh: Mesh) -> tuple[str, str]:
+    """Say which rows and strips of panels a block has."""
     ij = mesh.face_ij[list(block.faces)]
-    (low_i, low_j), (high_i, high_j) = ij.min(axis=0).tolist(), ij.max(axis=0).tolist()
-    return f"Developed from outside: panels of rows {low_i} to {high_i}, strips {low_j} to {high_j}"
+    low, high = ij.min(axis=0).tolist(), ij.max(axis=0).tolist()
+    rows, strips = (f"{a} to {b}" if a < b else f"{a}" for a, b in zip(low, high, strict=True))
+    return rows, strips
 
 
 def _inside(face: int, points: Floats, labels: Labels) -> Iterator[list[Text]]:
