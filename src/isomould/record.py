@@ -162,9 +162,12 @@ def _base_plate(asked: BasePlateSettings | None) -> dict[str, Any] | None:
 
 
 def _nc1(design: Design) -> dict[str, str]:
-    """Order, drawing and phase of NC1 files, and the unit of their mass."""
-    info, unit = design.project.project, design.project.deliver.nc1_mass or "kg/m"
-    return {"order": info.number, "drawing": info.drawing, "phase": info.phase, "mass": unit}
+    """Order, drawing and phase of NC1 files, the units of their mass, and the grade of plates."""
+    project = design.project
+    info, deliver = project.project, project.deliver
+    units = {"mass": deliver.mass_unit("bar"), "plate_mass": deliver.mass_unit("plate")}
+    grade = project.members.grade
+    return {"order": info.number, "drawing": info.drawing, "phase": info.phase, "grade": grade, **units}
 
 
 def _panel(design: Design) -> dict[str, Any]:

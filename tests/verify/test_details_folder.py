@@ -111,6 +111,23 @@ def other_plate(row):
     row["section_1"] = {"FL200*12": "FL200*15", "FL200*15": "FL200*12"}[row["section_1"]]
 
 
+def edit_nc1(pattern, change):
+    """Change the first match of a pattern in the first NC1 file of the fittings."""
+
+    def seed(folder):
+        path = sorted(folder.glob("fittings/*.nc1"))[0]
+        text = path.read_bytes().decode("ascii")
+        spoilt = re.sub(pattern, change, text, count=1)
+        assert spoilt != text
+        path.write_bytes(spoilt.encode("ascii"))
+
+    return seed
+
+
+def copy_nc1(folder):
+    shutil.copy(sorted(folder.glob("fittings/*.nc1"))[0], folder / "fittings" / "F99.nc1")
+
+
 def anywhere(_x, _y):
     return True
 
@@ -166,6 +183,13 @@ SEEDS = {
     "mass of fins": ("finned", "V39", edit_row("fittings", put("mass_kg", "0.5"))),
     "one nut less": ("finned", "V39c", edit_table("hardware", lambda rows: rows[1].update(pieces="3"))),
     "a hole that is not there": ("finned", "V20", edit_row("nodes", put("holes", "10"))),
+    "arc of an end plate": ("faceted", "V42f", edit_nc1(r"(u +\d+\.\d\d) {6}4\.00", r"\1      4.10")),
+    "hole of an end plate": ("faceted", "V42f", edit_nc1(r"BO\r\n  v( +)2", r"BO\r\n  v\g<1>3")),
+    "hole of a fin told elsewhere": ("finned", "V42f", edit_nc1(r"BO\r\n  v( +)\d", r"BO\r\n  v\g<1>7")),
+    "too many fins told": ("finned", "V42g", edit_nc1(r"S355\r\n  (\d+)", r"S355\r\n  9\1")),
+    "fins of another grade": ("finned", "V42g", edit_nc1(r"S355", "S235")),
+    "thicker fins told": ("finned", "V42g", edit_nc1(r"      8\.00", "     10.00")),
+    "NC1 of no fitting": ("finned", "V42g", copy_nc1),
     "caps of another mass in all": ("capped", "V44", edit_row("fittings", put("total_mass_kg", "1"))),
     "caps of one node less": ("capped", "V39c", edit_row("fittings", put("quantity", "2"))),
 }  # fmt: skip

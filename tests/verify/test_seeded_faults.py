@@ -18,7 +18,7 @@ from isomould.verify.folder import RULES
 from isomould.verify.rules import judge
 
 Seed = Callable[[Path], None]
-WELDED_PLATES = ("V37c", "V37d", "V38b", "V38d", "V38e", "V39", "V39b", "V39c")
+WELDED_PLATES = ("V37c", "V37d", "V38b", "V38d", "V38e", "V39", "V39b", "V39c", "V42f", "V42g")
 """Checks of facets, forks, fittings and hardware, which welded plates have none of."""
 BY_ID = {rule.id: rule for rule in RULES}
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -63,6 +64,8 @@ def rows(folder, name):
         "V28b",
         "V28c",
         "V40",
+        "V42f",
+        "V42g",
         "V43f",
         "V45",
         "V45b",
@@ -183,7 +186,28 @@ def lose_solid(folder):
     sorted(folder.glob("panels/*.3mf"))[0].unlink()
 
 
+def edit_nc1(name, pattern, change):
+    """Change the first match of a pattern in an NC1 file of the first support."""
+
+    def seed(folder):
+        path = folder / "nodes" / name.format(support(folder))
+        text = path.read_bytes().decode("ascii")
+        spoilt = re.sub(pattern, change, text, count=1)
+        assert spoilt != text
+        path.write_bytes(spoilt.encode("ascii"))
+
+    return seed
+
+
+def lose_nc1(folder):
+    (folder / "nodes" / f"{support(folder)}-stem.nc1").unlink()
+
+
 SEEDS = {
+    "hole of a base plate told elsewhere": ("V42f", edit_nc1("{}.nc1", r"30\.00u", "30.02u")),
+    "corner of a stem told elsewhere": ("V42f", edit_nc1("{}-stem.nc1", r"0\.00u      0\.00", "0.02u      0.00")),
+    "stem without NC1": ("V42f", lose_nc1),
+    "thickness of a base plate": ("V42g", edit_nc1("{}.nc1", r"     15\.00", "     12.00")),
     "hole lost": ("V28b", at_base(delete_hole)),
     "hole too wide": ("V28b", at_base(widen_hole)),
     "hole at the edge": ("V28b", at_base(move_hole)),

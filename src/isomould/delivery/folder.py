@@ -17,7 +17,7 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write all files but certificate and manifest into an empty folder."""
     write_model(folder / "model", delivery)
     write_machine_files(folder, delivery, spread)
-    write_nc1_files(folder / "members", delivery)
+    write_nc1_files(folder, delivery)
     write_nodes(folder / "nodes", delivery)
     write_part_solids(folder, delivery)
     write_schedules(folder, delivery)

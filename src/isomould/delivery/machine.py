@@ -7,12 +7,12 @@ from isomould.arrays import Floats
 from isomould.delivery.goods import Delivery
 from isomould.documents.cut_sheets import part_drawing, sheet_drawing
 from isomould.documents.drawing import CutDrawing
-from isomould.documents.member_files import fitting_drawing, member_drawing, member_nc_parts
+from isomould.documents.flat_parts import FlatPart, base_parts, fitting_parts, flat_drawing, flat_nc_part
+from isomould.documents.member_files import member_drawing, member_nc_parts
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Placement, Sheet
-from isomould.parts.details.fittings import Fitting
 from isomould.parts.members import MemberShape
 from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
@@ -24,11 +24,11 @@ from isomould.writers.settings import DeliverSettings
 
 @dataclass(frozen=True, eq=False)
 class _PartFile:
-    """A part file that is to be written: the outline of a panel, a member or a fitting."""
+    """A part file that is to be written: the outline of a panel, a member or a flat fitting."""
 
     folder: Path
     name: str
-    part: Floats | MemberShape | Fitting
+    part: Floats | MemberShape | FlatPart
     asked: DeliverSettings
     orientation: str | None
 
@@ -48,11 +48,11 @@ def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> Non
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
     kit, asked = delivery.design.kit, delivery.design.project.deliver
     orientation = _orientation(delivery.design.project.panels)
-    parts: dict[str, Floats | MemberShape | Fitting] = {
+    parts: dict[str, Floats | MemberShape | FlatPart] = {
         f"panels/{mark}": outline for mark, outline in zip(kit.panels.marks, kit.panels.outlines, strict=True)
     }
     parts |= {f"members/{mark}": shape for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)}
-    parts |= {f"fittings/{fitting.mark}": fitting for fitting in delivery.fittings if fitting.outline}
+    parts |= {part.file: part for part in fitting_parts(delivery.fittings)}
     spread(_write_part, [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()])
     layout = delivery.cutting.sheets
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
@@ -76,8 +76,8 @@ def _part_drawing(file: _PartFile) -> CutDrawing:
     mark = file.name.rpartition("/")[2]
     if isinstance(file.part, MemberShape):
         return member_drawing(mark, file.part)
-    if isinstance(file.part, Fitting):
-        return fitting_drawing(file.part)
+    if isinstance(file.part, FlatPart):
+        return flat_drawing(file.part)
     return part_drawing(mark, file.part, orientation=file.orientation)
 
 
@@ -95,12 +95,23 @@ def _write_versions(folder: Path, name: str, drawing: CutDrawing, asked: Deliver
 
 
 def write_nc1_files(folder: Path, delivery: Delivery) -> None:
-    """Write the NC1 files of the members beside their drawings."""
+    """Write the NC1 files of members, flat fittings and bases beside their drawings."""
     project, members = delivery.design.project, delivery.design.kit.members
-    info, unit = project.project, project.deliver.nc1_mass or "kg/m"
+    info, asked = project.project, project.members
     order = NcOrder(info.number, info.drawing, info.phase)
-    for part in member_nc_parts(members, project.members, unit):
-        write_nc1(folder / f"{part.mark}.nc1", part, order)
+    for part in member_nc_parts(members, asked, project.deliver.mass_unit("bar")):
+        write_nc1(folder / "members" / f"{part.mark}.nc1", part, order)
+    densities = ((fitting_parts(delivery.fittings), asked.density), (plates_of_bases(delivery), project.nodes.density))
+    for part, density in ((part, density) for parts, density in densities for part in parts):
+        written = flat_nc_part(part, asked.grade, density, project.deliver.mass_unit("plate"))
+        write_nc1(folder / f"{part.file}.nc1", written, order)
+
+
+def plates_of_bases(delivery: Delivery) -> tuple[FlatPart, ...]:
+    """Give plate and stem of every class of supports that stands on a base."""
+    nodes = delivery.design.kit.nodes
+    rows = zip(nodes.marks, nodes.classes.quantity.tolist(), delivery.design.kit.bases, strict=True)
+    return tuple(part for mark, quantity, base in rows if base for part in base_parts(mark, quantity, base))
 
 
 def write_strips(folder: Path, delivery: Delivery) -> None:

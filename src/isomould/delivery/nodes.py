@@ -5,7 +5,8 @@ from pathlib import Path
 
 from isomould.arrays import Floats, Ints
 from isomould.delivery.goods import Delivery
-from isomould.documents.base_drawings import plate_drawing, stem_drawing
+from isomould.delivery.machine import plates_of_bases
+from isomould.documents.flat_parts import flat_drawing
 from isomould.documents.node_plans import node_plan
 from isomould.parts.solid import Solid
 from isomould.writers.disk import write_bytes
@@ -32,10 +33,10 @@ def _write_plans(folder: Path, delivery: Delivery) -> None:
     kit, project = delivery.design.kit, delivery.design.project
     for mark, joint, base in zip(kit.nodes.marks, kit.joints, kit.bases, strict=True):
         drawn = node_plan(mark, joint)
-        plan = {f"{mark}-drum" if base else mark: drawn} if drawn else {}
-        plates = {mark: plate_drawing(mark, base), f"{mark}-stem": stem_drawing(mark, base)} if base else {}
-        for name, drawing in (plan | plates).items():
-            write_dxf(folder / f"{name}.dxf", drawing, project.deliver.layers)
+        if drawn:
+            write_dxf(folder / f"{mark}{'-drum' if base else ''}.dxf", drawn, project.deliver.layers)
+    for part in plates_of_bases(delivery):
+        write_dxf(folder.parent / f"{part.file}.dxf", flat_drawing(part), project.deliver.layers)
 
 
 def _surface(solid: Solid) -> tuple[Floats, Ints]:

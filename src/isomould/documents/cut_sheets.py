@@ -50,7 +50,7 @@ def part_drawing(
     holes = [hole if isinstance(hole, Circle) else _directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
     left, bottom = outline.min(axis=0)
     info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
-    free = free_area(contour, holes).difference(shapely.union_all([shapely.Polygon(taken) for taken in reserved]))
+    free = free_area(contour, holes, reserved)
     if direction:
         return CutDrawing((contour, *holes, *engrave(place_at_start(mark, outline, free)), info))
     return CutDrawing((contour, *holes, *_engraved(mark, free, outline, orientation), info))

@@ -39,9 +39,10 @@ class Stamp:
         return round_um(self.middle - _size(self.text, self.height) / 2 @ _TURNS[self.turned])
 
 
-def free_area(contour: Polyline, holes: Iterable[Polyline | Circle]) -> BaseGeometry:
-    """Give what a contour and the holes in it leave."""
-    return shapely.Polygon(chords(contour)).difference(shapely.union_all([_extent(hole) for hole in holes]))
+def free_area(contour: Polyline, holes: Iterable[Polyline | Circle], reserved: Iterable[Floats] = ()) -> BaseGeometry:
+    """Give what a contour leaves beside the holes in it and the polygons (k, 2) that are reserved."""
+    taken = [*(_extent(hole) for hole in holes), *(shapely.Polygon(polygon) for polygon in reserved)]
+    return shapely.Polygon(chords(contour)).difference(shapely.union_all(taken))
 
 
 def place_in_middle(text: str, free: BaseGeometry) -> Stamp | None:

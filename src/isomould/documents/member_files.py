@@ -7,7 +7,6 @@ from isomould.documents.drawing import CutDrawing
 from isomould.documents.holes import front_holes
 from isomould.documents.nc_parts import Blank, MassUnit, NcPart, NcProfile, nc_part, plate_profile, tube_profile
 from isomould.parts.catalogue import AnySection, PlateSection
-from isomould.parts.details.fittings import Fitting
 from isomould.parts.members import MemberParts, MemberShape
 from isomould.parts.settings import MemberSettings
 
@@ -15,21 +14,6 @@ from isomould.parts.settings import MemberSettings
 def member_drawing(mark: str, shape: MemberShape) -> CutDrawing:
     """Draw one member: contour, holes of its front, and the mark at its start with an arrow to its end."""
     return part_drawing(mark, shape.outline, inner=front_holes(shape.holes), direction=True)
-
-
-def fitting_drawing(fitting: Fitting) -> CutDrawing:
-    """Draw a flat fitting.
-
-    Raises
-    ------
-    ValueError
-        If the fitting is not flat.
-    """
-    if fitting.outline is None:
-        message = f"{fitting.mark} is turned: it has no outline"
-        raise ValueError(message)
-    outline, bulges = fitting.outline
-    return part_drawing(fitting.mark, outline, bulges, front_holes(fitting.holes))
 
 
 def member_nc_parts(members: MemberParts, asked: MemberSettings, unit: MassUnit) -> tuple[NcPart, ...]:

@@ -74,7 +74,8 @@ class NcPart:
 class Blank:
     """A part as the workshop has it: its outline (n, 2) mm and holes in one frame, and what its file says besides.
 
-    `along` is true of members, which have a start and an end: their mark stands at the start.
+    `along` is true of members, which have a start and an end: their mark stands at the start. It keeps clear of the
+    polygons (k, 2) that are `reserved`.
     """
 
     mark: str
@@ -85,6 +86,7 @@ class Blank:
     holes: tuple[Hole, ...] = ()
     notes: tuple[str, ...] = ()
     along: bool = False
+    reserved: tuple[Floats, ...] = ()
 
 
 def plate_profile(name: str, width: float, thickness: float, density: float, unit: MassUnit) -> NcProfile:
@@ -138,5 +140,5 @@ def _moved(hole: Hole, corner: Floats, profile: NcProfile) -> NcHole:
 
 def _stamp(blank: Blank) -> Stamp | None:
     """Place the mark where the drawing engraves it (`cut_sheets.part_drawing`)."""
-    free = free_area(Polyline("CUT", blank.outline, True, blank.bulges), front_holes(blank.holes))
+    free = free_area(Polyline("CUT", blank.outline, True, blank.bulges), front_holes(blank.holes), blank.reserved)
     return place_at_start(blank.mark, blank.outline, free) if blank.along else place_in_middle(blank.mark, free)

@@ -52,7 +52,10 @@ def fitting_table(fittings: tuple[Fitting, ...], density: float) -> Table:
             "size": [fitting.size for fitting in fittings],
             "mass_kg": [fitting.volume * density * _KG_PER_MM3 for fitting in fittings],
             "coated_area_m2": [fitting.surface and fitting.surface / 1e6 for fitting in fittings],
-            "file": [f"fittings/{f.mark}.{'3mf' if f.solid else 'dxf'}" for f in fittings],
+            "file": [
+                f"fittings/{f.mark}.3mf" if f.solid else f"fittings/{f.mark}.dxf;fittings/{f.mark}.nc1"
+                for f in fittings
+            ],
         },
     )
 

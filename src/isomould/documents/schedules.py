@@ -131,16 +131,16 @@ def sheet_of(book: str, number: int) -> str:
 
 
 def _node_files(kit: Kit, *, drawn: bool) -> list[str]:
-    """Faceted nodes have no plan for a machine; all others have one, or their base plate."""
-    planned = [joint.counts.facets == 0 or base is not None for joint, base in zip(kit.joints, kit.bases, strict=True)]
-    files = _files("nodes", kit.nodes.marks, drawn=drawn)
-    return [names if plan else names.partition(";")[2] for names, plan in zip(files, planned, strict=True)]
+    """Base plates have a part file and NC1, other nodes a plan for a machine where one describes them."""
+    rows = zip(kit.nodes.marks, kit.joints, kit.bases, strict=True)
+    endings = [("dxf", "nc1") if base else ("dxf",) if joint.planned else () for _, joint, base in rows]
+    return _files("nodes", kit.nodes.marks, endings, drawn=drawn)
 
 
-def _files(kind: str, marks: Sequence[str], endings: Sequence[str] = ("dxf",), *, drawn: bool) -> list[str]:
-    """Name the files of every class: its machine files, and its sheet where there are drawings."""
+def _files(kind: str, marks: Sequence[str], endings: Sequence[Sequence[str]], *, drawn: bool) -> list[str]:
+    """Name the files of every class: its machine files by their endings, and its sheet where there are drawings."""
     sheets = [[sheet_of(kind, k)] if drawn else [] for k in range(len(marks))]
-    made = [[f"{kind}/{mark}.{ending}" for ending in endings] for mark in marks]
+    made = [[f"{kind}/{mark}.{ending}" for ending in each] for mark, each in zip(marks, endings, strict=True)]
     return [";".join(files + sheet) for files, sheet in zip(made, sheets, strict=True)]
 
 
@@ -220,7 +220,7 @@ def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
         "mass_kg": [shape.volume * asked.density * _KG_PER_MM3 for shape in shapes],
         "coated_area_m2": [shape.paint_area / 1e6 for shape in shapes],
         "holes": [len(shape.holes) for shape in shapes],
-        "files": _files("members", members.marks, ("dxf", "nc1"), drawn=drawn),
+        "files": _files("members", members.marks, [("dxf", "nc1")] * len(shapes), drawn=drawn),
     }
 
 
@@ -261,7 +261,7 @@ def _panels(kit: Kit, settings: PanelSettings, *, drawn: bool) -> Columns:
         "box_height_mm": size[:, 1].tolist(),
         "mass_kg": (areas * settings.thickness / 1e3 * settings.density).tolist(),
         "handed": list(panels.handed),
-        "files": _files("panels", panels.marks, drawn=drawn),
+        "files": _files("panels", panels.marks, [("dxf",)] * len(panels.marks), drawn=drawn),
     }
 
 

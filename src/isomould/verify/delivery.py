@@ -109,6 +109,11 @@ class Delivery:
         return self.drawings("nodes")
 
     @cached_property
+    def fitting_drawings(self) -> dict[str, Drawing]:
+        """The part files of flat fittings by mark."""
+        return self.drawings("fittings")
+
+    @cached_property
     def sheets(self) -> dict[str, Drawing]:
         """The cut sheets by name."""
         return self.drawings("sheets")
@@ -139,6 +144,12 @@ class Delivery:
     def nc1(self) -> dict[str, NcFile]:
         """The NC1 files of the members by mark."""
         return {path.stem: read_nc1(path) for path in self.files("members", "nc1")}
+
+    @cached_property
+    def plate_nc1(self) -> dict[str, dict[str, NcFile]]:
+        """The NC1 files of fittings and bases by folder and name."""
+        folders = ("fittings", "nodes")
+        return {name: {path.stem: read_nc1(path) for path in self.files(name, "nc1")} for name in folders}
 
     @cached_property
     def solids(self) -> dict[str, Solid]:

@@ -62,3 +62,7 @@ class DeliverSettings(Settings):
     """Of the shop drawings; by default A4 where parts are drawn at 1:20 or larger, else A3."""
     parquet: Flag = False
     """Write every table as Apache Parquet too."""
+
+    def mass_unit(self, kind: Literal["bar", "plate"]) -> MassUnit:
+        """Give what line 15 of NC1 files holds: as asked for, or as exporters write it for bars and for plates."""
+        return self.nc1_mass or ("kg/m" if kind == "bar" else "kg/m2")

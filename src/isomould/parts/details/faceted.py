@@ -54,6 +54,7 @@ class FacetedJoint(Joint):
     cover: float
     families: dict[int, Bolting]
 
+    planned: ClassVar[bool] = False
     leans: ClassVar[bool] = False
 
     @property

@@ -66,6 +66,7 @@ class FinnedJoint(Joint):
     fin_height: float
     families: dict[int, Fork]
 
+    planned: ClassVar[bool] = True
     leans: ClassVar[bool] = True
 
     @property

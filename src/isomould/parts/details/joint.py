@@ -124,6 +124,9 @@ class Joint(ABC):
     hardware: tuple[Item, ...]
     stack: tuple[tuple[float, float], ...]
 
+    planned: ClassVar[bool]
+    """Whether a plan describes it, the same all along its axis."""
+
     leans: ClassVar[bool]
     """Whether end cuts follow the elevation of the arms; else members are cut square."""
 

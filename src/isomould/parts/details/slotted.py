@@ -62,6 +62,7 @@ class SlottedJoint(Joint):
     nose: bool
     cap: Cap | None
 
+    planned: ClassVar[bool] = True
     leans: ClassVar[bool] = True
 
     @property

@@ -30,7 +30,7 @@ ROUNDING = 1.5e-3
 def machine_files(delivery: Delivery) -> Measured:
     """Read every drawing strictly and list what a machine would trip over."""
     folders = {"panels": delivery.panels, "members": delivery.members, "sheets": delivery.sheets}
-    folders |= {name: delivery.drawings(name) for name in ("nodes", "fittings", ".")}
+    folders |= {"nodes": delivery.node_drawings, "fittings": delivery.fitting_drawings, ".": delivery.drawings(".")}
     folders |= {f"r12/{name}": found for name, found in delivery.twins.items()}
     named = [(f"{folder}/{d.name}.dxf", d) for folder, found in folders.items() for d in found.values()]
     problems = [f"{path}: {fault}" for path, drawing in named for fault in drawing_faults(drawing)]

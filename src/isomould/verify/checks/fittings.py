@@ -27,7 +27,7 @@ def masses(delivery: Delivery) -> Measured:
 def _own_masses(delivery: Delivery) -> dict[str, float]:
     density = float(delivery.design.raw["member"]["density_kg_m3"]) * 1e-9
     caps = {path.stem: volume(read_3mf(path)) for path in delivery.files("fittings", "3mf")}
-    drawings, files = delivery.drawings("fittings"), texts(delivery.table("fittings"), "file")
+    drawings, files = delivery.fitting_drawings, texts(delivery.table("fittings"), "file")
     plates = {mark: net_area(drawing) * _thickness(delivery, mark) for mark, drawing in drawings.items()}
     found = {mark: size * density for mark, size in (caps | plates).items()}
     lost = [name for name in files if name.split("/")[-1].split(".")[0] not in found]

@@ -22,9 +22,8 @@ BOLT = 0.01
 
 def edges(delivery: Delivery) -> Measured:
     """By how much a drilled hole of a fin, an end plate or a member in a fork is too near to an edge or to another."""
-    drawings = delivery.drawings("fittings")
-    if delivery.design.raw["node"]["detail"] == "finned":
-        drawings |= delivery.members
+    bolted = delivery.design.raw["node"]["detail"] == "finned"
+    drawings = delivery.fitting_drawings | (delivery.members if bolted else {})
     off = [(short, mark) for mark, drawing in drawings.items() for short in _short(drawing)]
     return worst_of([short for short, _ in off], [mark for _, mark in off], none="nothing is bolted through a plate")
 
@@ -107,7 +106,7 @@ def _hole_off(solid: Solid, centre: Floats, axis: Floats, radius: float) -> floa
 def fins(delivery: Delivery) -> Measured:
     """How far the fins' part files are off the node solids that they are welded into, and their feet off the hub."""
     node, table = _asked(delivery), delivery.table("node_fittings")
-    drawings, arms = delivery.drawings("fittings"), held_arms(delivery, sills=True)
+    drawings, arms = delivery.fitting_drawings, held_arms(delivery, sills=True)
     rows = zip(texts(table, "mark"), numbers(table, "arm").astype(int).tolist(), texts(table, "fitting"), strict=True)
     off, names = list[float](), list[str]()
     for mark, number, fitting in rows:

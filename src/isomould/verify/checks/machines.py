@@ -44,10 +44,10 @@ def _contour_off(part: NcFile, drawing: Drawing) -> float:
     drawn = one_outline(drawing)
     corner = drawn.points.min(axis=0)
     if part.code == "M":
-        return np.inf if part.outer or part.inner else _holes_off(part, drawing, corner)
+        return np.inf if part.outer or part.inner else holes_off(part, drawing, corner)
     if len(part.outer) != 1 or part.inner or part.outer[0][:, 2].any() or drawn.bulges.any():
         return np.inf
-    return max(_loops_off(part.outer[0][:, :2], drawn.points - corner), _holes_off(part, drawing, corner))
+    return max(_loops_off(part.outer[0][:, :2], drawn.points - corner), holes_off(part, drawing, corner))
 
 
 def _loops_off(found: Floats, drawn: Floats) -> float:
@@ -59,7 +59,7 @@ def _loops_off(found: Floats, drawn: Floats) -> float:
     return float(apart.min(axis=1).max()) if once_round else np.inf
 
 
-def _holes_off(part: NcFile, drawing: Drawing, corner: Floats) -> float:
+def holes_off(part: NcFile, drawing: Drawing, corner: Floats) -> float:
     """Compare holes (x, y, diameter, distance of a slot's ends) in the order of their places."""
     told = [(h.x + h.slot[0] / 2, h.y + h.slot[1] / 2, h.diameter, h.slot[0]) for h in part.holes if h.view == "v"]
     drawn = [(*circle.points[0][:2] - corner, 2 * circle.radius, 0.0) for circle in _drilled(drawing)]
@@ -105,15 +105,19 @@ _NAMED_LETTERS = {"SHARP S": "SS", "THORN": "TH", "ETH": "D", "ENG": "N", "EZH":
 
 def _header_faults(part: NcFile, row: dict[str, str], order: dict[str, str]) -> list[str]:
     """List what a file says otherwise than the schedule's row and the project's order."""
-    wanted = {key: _plain(order[key]) for key in ("order", "drawing", "phase")} | {"mark": row["mark"]}
-    wanted |= {"grade": _plain(row["grade"]), "quantity": row["quantity"], "profile": _plain(row["section"])}
+    wanted = {key: in_plain_letters(order[key]) for key in ("order", "drawing", "phase")} | {"mark": row["mark"]}
+    wanted |= {
+        "grade": in_plain_letters(row["grade"]),
+        "quantity": row["quantity"],
+        "profile": in_plain_letters(row["section"]),
+    }
     told = {**part.texts, "quantity": str(part.quantity), "profile": part.profile}
     found = [f"{key} {told[key]!r}, not {value!r}" for key, value in wanted.items() if told[key] != value]
     found += [f"stamped {stamp.text}" for stamp in part.stamps if stamp.text != row["mark"]]
     return found if f"members/{row['mark']}.nc1" in row["files"].split(";") else [*found, "no NC1 file in its row"]
 
 
-def _plain(text: str) -> str:
+def in_plain_letters(text: str) -> str:
     """Give text as the files can hold it: plain letters, a question mark for what has none."""
     bare = [letter for letter in unicodedata.normalize("NFKD", text) if not unicodedata.combining(letter)]
     return "".join(letter if letter.isascii() else _bare(letter) for letter in bare)[:80].strip() or "-"
