@@ -12,7 +12,7 @@ from isomould.errors import Refused
 from isomould.nesting import portfolio, search
 from isomould.nesting.checker import check_layout
 from isomould.nesting.files import layout_from_json, layout_to_json
-from isomould.nesting.layout import Part
+from isomould.nesting.layout import Layout, Part
 from isomould.nesting.nest import nest_blanks, nest_sheets
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.settings import SheetStock, StockSettings
@@ -174,3 +174,20 @@ def test_nothing_to_nest_needs_no_sheet() -> None:
 def test_gap_below_the_kerf_is_refused() -> None:
     with pytest.raises(ValueError, match="kerf"):
         StockSettings(gap=5, kerf=6)
+
+
+def test_the_emptiest_sheet_is_squeezed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same sheets, never a smaller offcut than without, and for most lists a larger one."""
+    lists = [rows_of_trapezoids(seed, 5, 7, unequal=seed % 2 == 0) for seed in (0, 1, 5, 6)]
+    squeezed = [nest_sheets(parts, STOCK, QUICK) for parts in lists]
+    monkeypatch.setattr(portfolio, "leave_offcut", lambda _, plans: plans)
+    plain = [nest_sheets(parts, STOCK, QUICK) for parts in lists]
+    assert [len(layout.sheets) for layout in squeezed] == [len(layout.sheets) for layout in plain]
+    gained = [_offcut(one) - _offcut(other) for one, other in zip(squeezed, plain, strict=True)]
+    assert min(gained) > -1e3
+    assert sum(area > 1e6 for area in gained) == 3
+
+
+def _offcut(layout: Layout) -> float:
+    assert layout.offcut is not None
+    return layout.offcut.width * layout.offcut.height

@@ -39,6 +39,9 @@ ROUNDS = 60
 NODES = 2000
 """Nodes of the search for whole numbers."""
 
+NOISE = 1e-12
+"""Worths that differ by less are the same."""
+
 
 def worth_trying(counts: Ints) -> bool:
     """Tell whether there are few enough classes with enough pieces for whole sheets to pay."""
@@ -71,19 +74,33 @@ class Stacks:
 
 
 def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
-    """Solve the unbounded knapsack of heights (k,) ascending, with a worth (k, cases) each, in grid steps."""
-    cases = np.arange(worth.shape[1])
-    best = np.zeros((room + 1, len(cases)))
-    last = np.full(best.shape, -1, dtype=np.int64)
-    fitting = np.searchsorted(heights, np.arange(room + 1), side="right")
-    for level in range(1, room + 1):
-        best[level] = best[level - 1]
-        if fitting[level]:
-            with_it = best[level - heights[: fitting[level]]] + worth[: fitting[level]]
-            item = with_it.argmax(axis=0)
-            better = with_it[item, cases] > best[level] + 1e-12
-            best[level, better], last[level, better] = with_it[item, cases][better], item[better]
+    """Solve the unbounded knapsack of heights (k,) ascending, with a worth (k, cases) each, in grid steps.
+
+    Levels that are nearer to each other than the least height do not build on each other: they are solved at once.
+    """
+    best = np.zeros((room + 1, worth.shape[1]))
+    last = np.full(best.shape, -1, dtype=np.int32)
+    step = int(heights[0]) if len(heights) else room + 1
+    for low in range(step, room + 1, step):
+        high = min(low + step, room + 1)
+        _put_on_top(heights, worth, best, last, (low, high))
+        below = np.maximum.accumulate(best[low - 1 : high], axis=0)
+        last[low:high][best[low:high] <= below[:-1] + NOISE] = -1
+        best[low:high] = below[1:]
     return Stacks(heights, best, last)
+
+
+def _put_on_top(heights: Ints, worth: Floats, best: Floats, last: Ints, levels: tuple[int, int]) -> None:
+    """Find the best item on top at some levels, in place."""
+    low, high = levels
+    for item, height in enumerate(heights.tolist()):
+        start = max(low, height)
+        if start >= high:
+            return
+        with_it = best[start - height : high - height] + worth[item]
+        better = with_it > best[start:high] + NOISE
+        np.copyto(best[start:high], with_it, where=better)
+        np.copyto(last[start:high], item, where=better)
 
 
 def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, _: Crew) -> Found:
@@ -167,13 +184,17 @@ def _zones(frame: Frame, pairs: Sequence[tuple[Frame, Priced]]) -> _Zones:
             step = other.step * -(-other.room // (other.step * LEVELS))
             heights = -(-(priced.heights + other.gap) // step)
             stacks = stack_up(heights, np.array(priced.tables)[:, sizes], other.room // step)
-            return _Zones(sizes, stacks.worth[-1], partial(_zone, frame, sizes, stacks, priced))
+            filled = np.flatnonzero(stacks.worth[-1] > 0)
+            make = partial(_zone, frame, (sizes, filled), stacks, priced)
+            return _Zones(sizes[filled], stacks.worth[-1, filled], make)
     return _Zones(np.zeros(0, dtype=np.int64), np.zeros(0), lambda _: Zone(0, ()))
 
 
-def _zone(frame: Frame, sizes: Ints, stacks: Stacks, priced: Priced, index: int) -> Zone:
-    size = int(sizes[index])
-    runs = [tuple(trace(priced, level, size)) for level in stacks.trace(index)]
+def _zone(frame: Frame, cases: tuple[Ints, Ints], stacks: Stacks, priced: Priced, index: int) -> Zone:
+    """Give a zone; `cases` are the sizes that were tried, and which of them hold anything."""
+    sizes, filled = cases
+    size = int(sizes[filled[index]])
+    runs = [tuple(trace(priced, level, size)) for level in stacks.trace(int(filled[index]))]
     return Zone(size * frame.step - frame.gap, tuple(run for run in runs if run))
 
 

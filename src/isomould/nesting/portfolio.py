@@ -6,6 +6,7 @@ from isomould.arrays import Ints
 from isomould.nesting import dive, patterns
 from isomould.nesting.cover import PLENTY, Rack
 from isomould.nesting.crew import Crew, gather
+from isomould.nesting.leftover import leave_offcut
 from isomould.nesting.search import Found, Search, first_sheets, improve
 
 LOSS = 1.08
@@ -20,7 +21,8 @@ def find_plans(rack: Rack, counts: Ints, task: Search) -> Found:
     are thousands of different parts. The best effort then fills the worst sheets again.
     """
     with gather(rack, task.jobs) as crew:
-        return _find(rack, counts, task, crew)
+        found = _find(rack, counts, task, crew)
+    return replace(found, plans=leave_offcut(rack, found.plans))
 
 
 def _find(rack: Rack, counts: Ints, task: Search, crew: Crew) -> Found:
