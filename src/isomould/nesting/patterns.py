@@ -79,7 +79,7 @@ def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
     Levels that are nearer to each other than the least height do not build on each other: they are solved at once.
     """
     best = np.zeros((room + 1, worth.shape[1]))
-    last = np.full(best.shape, -1, dtype=np.int32)
+    last = np.full(best.shape, -1, dtype=np.int64)
     step = int(heights[0]) if len(heights) else room + 1
     for low in range(step, room + 1, step):
         high = min(low + step, room + 1)
