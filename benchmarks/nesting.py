@@ -1,14 +1,17 @@
-"""Sheets, bound, yield and seconds for part lists, rectpack and spyrrow beside them: the table in docs/nesting.md.
+"""Sheets, bound, yield and seconds for part lists, others' programs beside them: the table in docs/nesting.md.
 
-    python benchmarks/nesting.py INSTANCE.json … [--effort quick|normal|best] [--no-rectpack] [--spyrrow SECONDS]
+    python benchmarks/nesting.py INSTANCE.json … [--effort quick|normal|best] [--jobs N] [--no-rectpack]
+        [--spyrrow SECONDS]
 
 Every layout of ours is proved by the checker before it is counted. rectpack nests bounding rectangles with a quarter
 turn allowed, the gap added to each side and to the sheet; the best of its algorithms counts. spyrrow nests outlines
 with all four turns on one endless strip as high as a sheet: its length in sheets is optimistic, for nothing is lost
-at their ends. Seconds are those of the processor, for other work on the machine does not lengthen them much.
+at their ends. Seconds are the processor's, of all processes, for other work on the machine does not lengthen them
+much, and after the / those of the clock.
 """
 
 import argparse
+import os
 import time
 from itertools import product
 from pathlib import Path
@@ -33,6 +36,7 @@ def main() -> None:
     cli.add_argument("--effort", choices=["quick", "normal", "best"], default="normal")
     cli.add_argument("--no-rectpack", action="store_true")
     cli.add_argument("--spyrrow", type=int, default=0, metavar="SECONDS", help="that spyrrow gets; 0 leaves it out")
+    cli.add_argument("--jobs", type=int, default=1)
     given = cli.parse_args()
     print(line(HEADER), line(["---"] * len(HEADER)), sep="\n")
     for path in given.instances:
@@ -41,7 +45,7 @@ def main() -> None:
             "" if given.no_rectpack else rectangles(instance),
             strip(instance, given.spyrrow) if given.spyrrow else "",
         ]
-        print(line([*measure(instance, Search(given.effort)), *others]), flush=True)
+        print(line([*measure(instance, Search(given.effort, jobs=given.jobs)), *others]), flush=True)
 
 
 def line(cells: object) -> str:
@@ -49,13 +53,19 @@ def line(cells: object) -> str:
 
 
 def measure(instance: Instance, task: Search) -> tuple[object, ...]:
-    start = time.process_time()
+    start, clock = processor(), time.perf_counter()
     layout = nest_sheets(instance.parts, instance.stock, task)
-    seconds = time.process_time() - start
+    seconds = f"{processor() - start:.1f} / {time.perf_counter() - clock:.1f}"
     findings = check_layout(instance.parts, instance.stock, layout)
     assert not findings, findings[0]
     counts = (len(layout.placements), len(layout.sheets), layout.bound, layout.gap_to_bound)
-    return (instance.name, *counts, f"{layout.yield_percent:.2f}", f"{seconds:.1f}")
+    return (instance.name, *counts, f"{layout.yield_percent:.2f}", seconds)
+
+
+def processor() -> float:
+    """Give the seconds of this process and of those that it has waited for."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
 
 
 def rectangles(instance: Instance) -> int:
