@@ -83,7 +83,8 @@ def test_holes_go_through_plates():
     shape = bar(PlateSection(depth=100, thickness=10), holes=HOLES)
     openings = math.pi / 4 * (18**2 + 26**2) + 26 * 50
     assert shape.volume == pytest.approx((100 * 1000 - openings) * 10, rel=1e-14)
-    assert member_body(shape).volume() == pytest.approx(shape.volume, rel=2e-4)  # round cutters have chords
+    around = 10 * math.pi * (18 + 26)  # chords of 0.002 mm, what V27c allows
+    assert 0 <= member_body(shape).volume() - shape.volume < 0.002 * around
     assert member_body(shape).genus() == 2
 
 

@@ -25,7 +25,9 @@ TINY = changed(
 DESIGNS = {
     "capped": changed(TINY, nodes={"retention": "lipped-cap"}, members={"parallel": "FL200*15"}),
     "faceted": changed(TINY, nodes={"detail": "faceted"}, members={"section": "RHS 100x50x4"}),
-    "finned": changed(TINY, nodes={"detail": "finned"}, members={"parallel": "FL200*15"}, deliver=BARE),
+    "finned": changed(
+        TINY, nodes={"detail": "finned"}, members={"parallel": "FL200*15"}, deliver={**BARE, "solids": ["members"]}
+    ),
 }
 
 
@@ -50,6 +52,11 @@ def test_details_are_proved_with_something_to_prove(built, name, silent):
     checks = {rule: judge(BY_ID[rule], Delivery(built[name])) for rule in BY_ID if re.match("V3[7-9]", rule)}
     assert {rule for rule, check in checks.items() if check.status == "not_applicable"} == silent
     assert all(check.status == "pass" and check.count > 0 for rule, check in checks.items() if rule not in silent)
+
+
+def test_solids_of_drilled_members_are_their_outlines(built):
+    found = judge(BY_ID["V27c"], Delivery(built["finned"]))
+    assert (found.status, found.count > 0) == ("pass", True), found
 
 
 def edit_row(name, change):

@@ -6,6 +6,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.parts.catalogue import AnySection, PlateSection, RhsSection
 from isomould.parts.features import Face, Hole
+from isomould.parts.kernel import facets
 from isomould.parts.members import MemberShape
 
 _OVERLAP = 5.0
@@ -43,9 +44,7 @@ def _tube(shape: MemberShape, section: RhsSection) -> m3.Manifold:
 def _bolt_holes(shape: MemberShape, start: float, end: float) -> m3.Manifold:
     places = zip((start, end), shape.end_plates, strict=False)
     holes = [
-        m3.Manifold.cylinder(2 * (plate.thickness + _OVERLAP), plate.diameter / 2, center=True)
-        .rotate((0.0, 90.0, 0.0))
-        .translate((x, y, 0.0))
+        _drill(plate.diameter, 2 * (plate.thickness + _OVERLAP)).rotate((0.0, 90.0, 0.0)).translate((x, y, 0.0))
         for x, plate in places
         for y in plate.bolts
     ]
@@ -80,10 +79,15 @@ def _bar(depth: float, width: float, radius: float, reach: tuple[float, float]) 
 def _cutter(hole: Hole, shape: MemberShape) -> m3.Manifold:
     """A hole through a plate, or through the one wall of a hollow section that its face is."""
     turn, sign = _TURNS[hole.face]
-    disc = m3.Manifold.cylinder(2 * _depth(shape), hole.diameter / 2, center=True)
+    disc = _drill(hole.diameter, 2 * _depth(shape))
     ends = [disc.translate((hole.x + side * hole.lengthening / 2, sign * hole.y, 0.0)) for side in (-1, 1)]
     upright = m3.Manifold.batch_hull(ends).translate((0.0, 0.0, _level(hole.face, shape)))
     return upright.rotate((turn, 0.0, 0.0))
+
+
+def _drill(diameter: float, length: float) -> m3.Manifold:
+    """A cylinder about z, half of it on either side, as round as all others."""
+    return m3.Manifold.cylinder(length, diameter / 2, diameter / 2, facets(diameter / 2), center=True)
 
 
 def _depth(shape: MemberShape) -> float:
