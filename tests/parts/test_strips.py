@@ -7,7 +7,7 @@ import shapely
 from isomould.errors import Refused
 from isomould.parts.outline import area
 from isomould.parts.strips import unroll_strips
-from museum import SMALL, VAULT, changed, design, sphere
+from museum import SMALL, VAULT, changed, design, sketched, sphere, template
 
 
 def face_areas(mesh):
@@ -46,6 +46,14 @@ def test_trimmed_strips_are_refused():
     data = changed(SMALL, surface={"trim": [{"plane": {"z": "0.9 m"}, "keep": "above"}]})
     with pytest.raises(Refused, match=r"deliver\.strips"):
         unroll_strips(design(data).kit.mesh, "generatrix")
+
+
+def test_a_ring_that_lies_flat_is_refused():
+    """The row at the crown of a torus: its end would lie on its beginning."""
+    mesh = sketched(template("torus")).mesh
+    assert len(unroll_strips(mesh, "generatrix")) == 24
+    with pytest.raises(Refused, match=r"strip SP-15, which lies on itself .* \"parallel\" out of deliver\.strips"):
+        unroll_strips(mesh, "parallel")
 
 
 def test_a_strip_is_counter_clockwise_and_simple():

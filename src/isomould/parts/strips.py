@@ -4,10 +4,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import shapely
 
 from isomould.arrays import Floats, Ints, read_only
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh, NodeKind
+from isomould.parts.outline import round_outline
 
 Along = Literal["generatrix", "parallel"]
 """The lines that a strip lies between."""
@@ -53,6 +55,11 @@ def unroll_strips(mesh: Mesh, along: Along) -> tuple[Strip, ...]:
     """Unroll all strips between neighbouring generatrices, or between neighbouring parallels.
 
     A strip that runs round a closed direction is cut open at its first fold.
+
+    Raises
+    ------
+    Refused
+        If panels of a strip are cut or missing, or a strip lies on itself when it is flat.
     """
     index = 1 if along == "generatrix" else 0
     numbers = np.unique(mesh.face_ij[:, index]).tolist()
@@ -74,7 +81,21 @@ def _unroll(mesh: Mesh, along: Along, number: int, name: str) -> Strip:
         left.append(far_left)
         right.append(far_right)
     sides = np.array(left), np.array(right)
-    return Strip(name, along, number, *sides, _sagitta((sides[0] + sides[1]) / 2))
+    strip = Strip(name, along, number, *sides, _sagitta((sides[0] + sides[1]) / 2))
+    _refuse_overlap(strip)
+    return strip
+
+
+def _refuse_overlap(strip: Strip) -> None:
+    """A ring that turns by a whole turn when it lies flat ends on its beginning: no sheet holds both."""
+    if not shapely.is_simple(shapely.LinearRing(round_outline(strip.outline))):
+        raise Refused(
+            "E-STRIP",
+            "deliver.strips",
+            f"strip {strip.name}, which lies on itself when it is flat",
+            "strips with an outline that does not meet itself",
+            f'Leave "{strip.along}" out of deliver.strips.',
+        )
 
 
 def _whole(mesh: Mesh, rows: Ints, along: Along) -> Ints:
