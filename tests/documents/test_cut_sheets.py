@@ -4,7 +4,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from isomould.documents.cut_sheets import part_drawing, sheet_drawing
+from isomould.documents.cut_sheets import PartOnSheet, part_drawing, sheet_drawing
 from isomould.documents.drawing import Polyline, signed_area
 from isomould.documents.drawing_checks import check_drawing
 from isomould.documents.stroke_font import text_strokes
@@ -61,7 +61,8 @@ def test_arcs_are_kept_and_holes_with_arcs_turned():
 def test_sheet_shows_stock_contours_and_locations():
     placed = TRAPEZOID + np.array([20, 30])
     turned_over = TRAPEZOID * [-1, 1] + np.array([2600, 30])
-    drawing = sheet_drawing(3210, 2250, [("P07", "P-00-01", placed), ("P07", "P-00-02", turned_over)])
+    parts = [PartOnSheet("P07", "P-00-01", placed), PartOnSheet("P07", "P-00-02", turned_over)]
+    drawing = sheet_drawing(3210, 2250, parts)
     check_drawing(drawing)
     assert on(drawing, "SHEET")[0].points.max(axis=0).tolist() == [3210, 2250]
     assert [signed_area(contour) > 0 for contour in on(drawing, "CUT")] == [True, True]
@@ -73,7 +74,7 @@ def test_sheet_shows_stock_contours_and_locations():
 
 def test_scored_glass_is_not_cut():
     scores = np.array([[[0, 900], [3210, 900]], [[1200, 0], [1100, 900]]], float)
-    drawing = check_drawing(sheet_drawing(3210, 2250, [("P07", "P-00-01", TRAPEZOID)], scores))
+    drawing = check_drawing(sheet_drawing(3210, 2250, [PartOnSheet("P07", "P-00-01", TRAPEZOID)], scores))
     assert not on(drawing, "CUT")
     assert len(on(drawing, "SCORE")) == 2
     assert any(isinstance(entity, Polyline) for entity in on(drawing, "INFO"))

@@ -5,7 +5,7 @@ import pytest
 import shapely
 from ezdxf import options
 
-from isomould.documents.cut_sheets import part_drawing, sheet_drawing
+from isomould.documents.cut_sheets import PartOnSheet, part_drawing, sheet_drawing
 from isomould.documents.drawing import Circle, CutDrawing, Label, Polyline, Segment3D, signed_area
 from isomould.errors import Refused
 from isomould.writers.dxf import write_dxf
@@ -73,7 +73,7 @@ def engraved(drawing):
 
 
 def test_gdal_reads_the_same_areas(tmp_path):
-    placed = [("P07", f"P-00-{k:02d}", OUTLINE + np.array([20 + 1250 * k, 20])) for k in range(2)]
+    placed = [PartOnSheet("P07", f"P-00-{k:02d}", OUTLINE + np.array([20 + 1250 * k, 20])) for k in range(2)]
     write_dxf(tmp_path / "S001.dxf", sheet_drawing(3210, 2250, placed))
     meta, _, shapes, fields = pyogrio.raw.read(tmp_path / "S001.dxf", columns=["Layer"])
     assert list(meta["fields"]) == ["Layer"]

@@ -4,15 +4,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from isomould.arrays import Floats
+from isomould.delivery.cut_sheets import SheetLook, sheet_files, write_sheet, write_versions
 from isomould.delivery.goods import Delivery
-from isomould.documents.cut_sheets import part_drawing, sheet_drawing
+from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing
 from isomould.documents.flat_parts import FlatPart, base_parts, fitting_parts, flat_drawing, flat_nc_part
 from isomould.documents.member_files import member_drawing, member_nc_parts
 from isomould.documents.setting_out import setting_out_drawing
 from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
-from isomould.nesting.layout import Placement, Sheet
 from isomould.parts.members import MemberShape
 from isomould.parts.settings import PanelSettings
 from isomould.workers import Spread
@@ -33,17 +33,6 @@ class _PartFile:
     orientation: str | None
 
 
-@dataclass(frozen=True, eq=False)
-class _SheetFile:
-    """A cut sheet that is to be written."""
-
-    folder: Path
-    sheet: Sheet
-    placements: tuple[Placement, ...]
-    asked: DeliverSettings
-    orientation: str | None
-
-
 def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> None:
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
     kit, asked = delivery.design.kit, delivery.design.project.deliver
@@ -55,10 +44,8 @@ def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> Non
     parts |= {part.file: part for part in fitting_parts(delivery.fittings)}
     spread(_write_part, [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()])
     layout = delivery.cutting.sheets
-    on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
-    for placement in layout.placements:
-        on[placement.sheet].append(placement)
-    spread(_write_sheet, [_SheetFile(folder, s, tuple(on[s.id]), asked, orientation) for s in layout.sheets])
+    look = SheetLook(asked, orientation)
+    spread(write_sheet, sheet_files(folder, "sheets/", layout, delivery.cutting.stock, look))
     write_bytes(folder / "sheets" / "nesting.json", layout_to_json(layout).encode())
 
 
@@ -69,7 +56,7 @@ def _orientation(panels: PanelSettings) -> str | None:
 
 
 def _write_part(file: _PartFile) -> None:
-    _write_versions(file.folder, file.name, _part_drawing(file), file.asked)
+    write_versions(file.folder, file.name, _part_drawing(file), file.asked)
 
 
 def _part_drawing(file: _PartFile) -> CutDrawing:
@@ -79,19 +66,6 @@ def _part_drawing(file: _PartFile) -> CutDrawing:
     if isinstance(file.part, FlatPart):
         return flat_drawing(file.part)
     return part_drawing(mark, file.part, orientation=file.orientation)
-
-
-def _write_sheet(file: _SheetFile) -> None:
-    placed = [(str(p.id), str(p.location), p.points) for p in file.placements]
-    drawing = sheet_drawing(file.sheet.width, file.sheet.height, placed, orientation=file.orientation)
-    _write_versions(file.folder, f"sheets/{file.sheet.id}", drawing, file.asked)
-
-
-def _write_versions(folder: Path, name: str, drawing: CutDrawing, asked: DeliverSettings) -> None:
-    """Write a drawing in every version asked for; the twins of the folder's files lie in `r12/`."""
-    for version in asked.dxf:
-        place = folder / "r12" if version == "R12" else folder
-        write_dxf(place / f"{name}.dxf", drawing, asked.layers, version)
 
 
 def write_nc1_files(folder: Path, delivery: Delivery) -> None:
@@ -117,7 +91,7 @@ def plates_of_bases(delivery: Delivery) -> tuple[FlatPart, ...]:
 def write_strips(folder: Path, delivery: Delivery) -> None:
     """Write the unrolled strips that the project asks for."""
     for strip in delivery.strips:
-        _write_versions(folder, f"strips/{strip.name}", strip_drawing(strip), delivery.design.project.deliver)
+        write_versions(folder, f"strips/{strip.name}", strip_drawing(strip), delivery.design.project.deliver)
 
 
 def write_setting_out(path: Path, delivery: Delivery) -> None:

@@ -1,6 +1,7 @@
 """Cut drawings of single parts and of nested sheets."""
 
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -10,11 +11,18 @@ from isomould.arrays import Floats
 from isomould.documents.drawing import Circle, CutDrawing, Entity, Label, Layer, Polyline, signed_area
 from isomould.documents.engraving import TEXT_HEIGHTS, engrave, free_area, place_at_start, place_in_middle
 from isomould.documents.orientation import point_to_side
+from isomould.documents.stroke_font import engravable
 
 _INFO_HEIGHT = 10.0
 
-Placement = tuple[str, str, Floats]
-"""Mark, location and the placed outline (n, 2), mm."""
+
+class PartOnSheet(NamedTuple):
+    """A part on its sheet: mark, location or nothing, the placed outline (n, 2) mm and its placed holes."""
+
+    mark: str
+    location: str
+    points: Floats
+    holes: Sequence[Polyline | Circle] = ()
 
 
 def part_drawing(
@@ -47,7 +55,7 @@ def part_drawing(
         Engrave the mark at the start of the part, with an arrow to its end (fabrication, Marks and locations).
     """
     contour = Polyline("CUT", outline, True, bulges)
-    holes = [hole if isinstance(hole, Circle) else _directed(hole.points, hole.bulges, "CUT_INNER") for hole in inner]
+    holes = [_inner(hole) for hole in inner]
     left, bottom = outline.min(axis=0)
     info = _info(f"{mark} {note}".strip(), left, bottom - 2 * _INFO_HEIGHT)
     free = free_area(contour, holes, reserved)
@@ -59,7 +67,7 @@ def part_drawing(
 def sheet_drawing(
     width: float,
     height: float,
-    placements: Iterable[Placement],
+    placements: Iterable[PartOnSheet],
     scores: Floats | None = None,
     orientation: str | None = None,
 ) -> CutDrawing:
@@ -69,8 +77,8 @@ def sheet_drawing(
     ----------
     width, height : float, mm
         Of the stock sheet, lower left corner at the origin.
-    placements : iterable of (mark, location, points)
-        Points (n, 2) of the placed outline; a part that was turned over comes clockwise.
+    placements : iterable of PartOnSheet
+        A part that was turned over comes clockwise.
     scores : (k, 2, 2) float, mm, optional
         Lines to score, in cutting order: then the contours go to INFO, because nothing is cut.
     orientation : str, optional
@@ -79,15 +87,22 @@ def sheet_drawing(
     layer: Layer = "CUT" if scores is None else "INFO"
     stock = Polyline("SHEET", np.array([[0, 0], [width, 0], [width, height], [0, height]], float), True)
     lines = [Polyline("SCORE", line, False) for line in ([] if scores is None else scores)]
-    parts = [entity for placement in placements for entity in _placed(layer, orientation, *placement)]
+    parts = [entity for placement in placements for entity in _placed(layer, orientation, placement)]
     return CutDrawing((stock, *parts, *lines))
 
 
-def _placed(layer: Layer, orientation: str | None, mark: str, location: str, points: Floats) -> list[Entity]:
-    contour, text = _directed(points, None, layer), f"{mark} {location}"
-    outline = shapely.Polygon(points)
+def _placed(layer: Layer, orientation: str | None, part: PartOnSheet) -> list[Entity]:
+    contour, text = _directed(part.points, None, layer), f"{part.mark} {part.location}".strip()
+    outline = shapely.Polygon(part.points)
+    holes = [_inner(hole) for hole in part.holes]
+    free = free_area(contour, holes) if holes else outline
     at = outline.representative_point()
-    return [contour, *_engraved(text, outline, points, orientation), _info(text, at.x, at.y, TEXT_HEIGHTS[-1])]
+    label = _info(text.replace("%%", "% %"), at.x, at.y, TEXT_HEIGHTS[-1])
+    return [contour, *holes, *_engraved(engravable(text), free, part.points, orientation), label]
+
+
+def _inner(hole: Polyline | Circle) -> Polyline | Circle:
+    return hole if isinstance(hole, Circle) else _directed(hole.points, hole.bulges, "CUT_INNER")
 
 
 def _directed(points: Floats, bulges: Floats | None, layer: Layer) -> Polyline:

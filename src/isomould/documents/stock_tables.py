@@ -1,10 +1,13 @@
 """The tables of sheets and bars (deliverables, Folder)."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from isomould.documents.live import RateCell
 from isomould.documents.table import Table, make_live_table
 from isomould.nesting.layout import BarLayout, Layout, Placement, Sheet
+from isomould.nesting.scoring import score_lines
 from isomould.nesting.settings import StockSettings
 from isomould.parts.outline import area, sides
 
@@ -12,21 +15,25 @@ Columns = dict[str, list[object]]
 
 
 def sheet_table(layout: Layout, stock: StockSettings) -> Table:
-    """Give one row per sheet: parts, areas, cut lengths, the largest offcut along an edge, price (that of its rate)."""
+    """Give one row per sheet: parts, areas, cut lengths, the largest offcut along an edge, price (that of its rate).
+
+    What is cut are the contours of the parts; of scored sheets the lines that are scored.
+    """
     price = {sheet.name: RateCell(f"sheet_{k}", sheet.price) for k, sheet in enumerate(stock.sheets, start=1)}
     on: dict[str, list[Placement]] = {sheet.id: [] for sheet in layout.sheets}
     for placement in layout.placements:
         on[placement.sheet].append(placement)
     areas = [sum(abs(area(p.points - p.points[0])) for p in on[sheet.id]) for sheet in layout.sheets]
-    offcut = [_offcut(sheet, on[sheet.id], stock) for sheet in layout.sheets]
+    offcut = [offcut_rectangle(sheet, on[sheet.id], stock)[2:] for sheet in layout.sheets]
+    cut = _cuts(layout, on, stock)
     data: Columns = {
         "sheet": [sheet.id for sheet in layout.sheets],
         "stock": [sheet.stock for sheet in layout.sheets],
         "parts": [len(on[sheet.id]) for sheet in layout.sheets],
         "part_area_m2": [value / 1e6 for value in areas],
         "yield_percent": [100 * a / (s.width * s.height) for a, s in zip(areas, layout.sheets, strict=True)],
-        "cut_length_mm": [sum(float(sides(p.points).sum()) for p in on[sheet.id]) for sheet in layout.sheets],
-        "cuts": [len(on[sheet.id]) for sheet in layout.sheets],
+        "cut_length_mm": [sum(cuts) for cuts in cut],
+        "cuts": [len(cuts) for cuts in cut],
         "offcut_width_mm": [width for width, _ in offcut],
         "offcut_height_mm": [height for _, height in offcut],
         "price": [price.get(sheet.stock) for sheet in layout.sheets],
@@ -58,11 +65,21 @@ def bar_name(section: str, length: float) -> str:
     return f"{section} x {length:g}"
 
 
-def _offcut(sheet: Sheet, placements: list[Placement], stock: StockSettings) -> tuple[float, float]:
-    """Width and height (mm) of the larger rectangle left above or beside all parts, a gap away from them."""
+def _cuts(layout: Layout, on: Mapping[str, Sequence[Placement]], stock: StockSettings) -> list[list[float]]:
+    """Give the lengths (mm) of all that is cut, sheet by sheet."""
+    if stock.scored:
+        scores = score_lines(layout, stock)
+        return [np.hypot(*(lines[:, 1] - lines[:, 0]).T).tolist() for lines in scores.values()]
+    return [[float(sides(p.points).sum()) for p in on[sheet.id]] for sheet in layout.sheets]
+
+
+def offcut_rectangle(
+    sheet: Sheet, placements: Sequence[Placement], stock: StockSettings
+) -> tuple[float, float, float, float]:
+    """Give x, y, width and height (mm) of the larger rectangle left above or beside all parts, a gap away from them."""
     reach = np.concatenate([p.points for p in placements]).max(axis=0) + stock.gap
-    width, height = sheet.width - 2 * stock.trim, sheet.height - 2 * stock.trim
-    above = (width, max(0.0, sheet.height - stock.trim - reach[1]))
-    beside = (max(0.0, sheet.width - stock.trim - reach[0]), height)
-    best = max(above, beside, key=lambda box: box[0] * box[1])
-    return best if min(best) > 0 else (0.0, 0.0)
+    right, top = sheet.width - stock.trim, sheet.height - stock.trim
+    above = (stock.trim, float(reach[1]), right - stock.trim, max(0.0, top - float(reach[1])))
+    beside = (float(reach[0]), stock.trim, max(0.0, right - float(reach[0])), top - stock.trim)
+    best = max(above, beside, key=lambda box: box[2] * box[3])
+    return best if min(best[2:]) > 0 else (stock.trim, stock.trim, 0.0, 0.0)

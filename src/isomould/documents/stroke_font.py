@@ -7,6 +7,7 @@ stroke runs over another, so that a machine engraves every line once.
 import numpy as np
 
 from isomould.arrays import Floats
+from isomould.documents.ascii import plain_text
 from isomould.errors import Refused
 
 _CAP = 6
@@ -65,6 +66,15 @@ _STROKES = {
     )
     for character, text in _GLYPHS.items()
 }
+
+
+def engravable(text: str) -> str:
+    """Give a text in the letters that can be engraved: capitals without accents, a hyphen for what has no letter.
+
+    >>> engravable("Süd_12 a")
+    'SUD-12 A'
+    """
+    return "".join(character if character in _STROKES else "-" for character in plain_text(text).upper())
 
 
 def text_width(text: str, height: float) -> float:

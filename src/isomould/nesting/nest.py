@@ -22,6 +22,7 @@ from isomould.nesting.rack import (
     refuse_oversize,
     sort_classes,
 )
+from isomould.nesting.scoring import refuse_unscorable
 from isomould.nesting.search import Found, Search
 from isomould.nesting.settings import StockSettings
 from isomould.nesting.shapes import micrometres
@@ -41,9 +42,10 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     Raises
     ------
     Refused
-        If a part fits no sheet.
+        If a part fits no sheet, or cannot be scored free where the gap is 0.
     """
     refuse_oversize(parts, stock)
+    refuse_unscorable(parts, stock)
     classes = sort_classes(parts)
     found = find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else NOTHING
     filling = fill_stock(found.plans, classes, stock)
@@ -65,6 +67,7 @@ def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:
     """
     stock = stock.model_copy(update={"sheets": ()})
     _refuse_long(parts, stock)
+    refuse_unscorable(parts, stock)
     rows = _rows(parts)
     fillings = [_blanks(row, stock) for row in rows]
     bound = sum(_blank_bound(row, stock) for row in rows)

@@ -56,6 +56,11 @@ class StockSettings(Settings):
     bar_kerf: NonNegativeLength = 3.0
     bar_trim: NonNegativeLength = 0.0
 
+    @property
+    def scored(self) -> bool:
+        """Tell whether nothing is lost between parts: glass is scored and broken, not cut."""
+        return self.gap == 0
+
     @model_validator(mode="after")
     def _gap_holds_the_kerf(self) -> "StockSettings":
         if self.gap < self.kerf:

@@ -32,6 +32,25 @@ def saw(tree: dict[str, Any], piece: Loop, kerf: float) -> Iterator[tuple[int | 
     yield from saw(branches[-1], piece, kerf)
 
 
+def halves(line: Line, piece: Loop) -> tuple[Loop, Loop]:
+    """Give what lies at the left and at the right of a line."""
+    return _left_of(line, piece, 0.0), _left_of((line[1], line[0]), piece, 0.0)
+
+
+def chords(tree: dict[str, Any], piece: Loop) -> Iterator[Line]:
+    """Give the cuts of a tree from edge to edge of their pieces, in cutting order; nothing is lost to a kerf."""
+    lines: list[Line] = [((a[0], a[1]), (b[0], b[1])) for a, b in tree.get("lines", [])]
+    branches = tree.get("pieces", [])
+    for line, branch in zip(lines, branches[:-1], strict=True):
+        if _length_inside(line, piece) > 0:
+            met = [point for point in halves(line, piece)[0] if abs(_height(line, point)) < 1e-6]
+            yield max(((a, b) for a in met for b in met), key=lambda ends: math.dist(*ends))
+        left, piece = halves(line, piece)
+        yield from chords(branch, left)
+    if branches:
+        yield from chords(branches[-1], piece)
+
+
 def reach(points: Loop, piece: Loop) -> float:
     """Tell how far points reach out of a convex piece, counter-clockwise, in mm."""
     edges = [(a, b) for a, b in zip(piece, piece[1:] + piece[:1], strict=True) if math.dist(a, b) > 1e-9]

@@ -73,8 +73,7 @@ def _drawn_on(delivery: Delivery, sheet: str, drawing: Drawing) -> Measured:
 
 def contours(delivery: Delivery, drawing: Drawing) -> list[Outline]:
     """Give the outlines of the parts on a cut sheet: on INFO, not CUT, where lines are scored (gap = 0)."""
-    scored = delivery.design.raw["nesting"]["gap_mm"] == 0 and not outlines_on(drawing, "CUT")
-    return outlines_on(drawing, "INFO" if scored else "CUT")
+    return outlines_on(drawing, "INFO" if delivery.design.raw["nesting"]["gap_mm"] == 0 else "CUT")
 
 
 def rigid(delivery: Delivery) -> Measured:
