@@ -43,8 +43,8 @@ def test_what_answers_a_row_exists(row, answer):
     assert set(checks) <= CHECKS
 
 
-@pytest.mark.parametrize(("row", "answer"), [(row, answer) for row, answer in ROWS if row[0] in "BC"])
-def test_answers_of_curves_and_surfaces_are_tested(row, answer):
+@pytest.mark.parametrize(("row", "answer"), [(row, answer) for row, answer in ROWS if row[0] in "BCD"])
+def test_answers_of_curves_surfaces_and_nodes_are_tested(row, answer):
     named = re.findall(r"[EW]-[A-Z0-9-]*[A-Z0-9]|\bV\d+[a-e]?\b", answer)
     assert named, row
     assert [code for code in named if code not in TESTS] == []

@@ -107,6 +107,7 @@ def hold_plates(sizes: tuple[float, float, float], thickness: float, settings: S
         Limit("hook behind the lip", notch[-1][0] - plate_end, asked.min_hook),
         Limit("height of tongues between notches", 2 * notch[1][1], height / 2),
         Limit("radius inside the lip", cap.lip_inner, max(bolt.washer_diameter / 2, thickness)),
+        Limit("edge of the cap around its bolt and the tool", radius, max(1.2 * bolt.clearance_hole, bolt.tool / 2)),
     )
     top = height / 2 + asked.thickness
     stack = (
