@@ -52,8 +52,12 @@ def _acquire(path: Path) -> None:
 
 def _create(path: Path) -> None:
     descriptor = os.open(path, _EXCLUSIVE)
-    with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-        file.write(f"{os.getpid()} {socket.gethostname()}\n")
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(f"{os.getpid()} {socket.gethostname()}\n")
+    except OSError:
+        path.unlink(missing_ok=True)  # a lock that names nobody would stay for ever
+        raise
 
 
 def _take_over(path: Path) -> None:

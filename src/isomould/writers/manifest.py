@@ -113,7 +113,7 @@ def files_of(folder: Path) -> list[str]:
 def _listed(folder: Path) -> dict[str, str] | None:
     try:
         manifest = _SCHEMA.validate_json((folder / MANIFEST).read_bytes())
-    except (OSError, ValidationError):
+    except (FileNotFoundError, NotADirectoryError, ValidationError):  # other faults are the system's, and told as such
         return None
     ours = manifest.schema == 1 and manifest.tool.get("name") == TOOL
     return {entry.path: entry.sha256 for entry in manifest.files} if ours else None
