@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 import worked_by_hand as hand
 import worked_rows as rows
+from worked_details import detail_steps
 from worked_nc1 import NUMBER as ORDER
 from worked_nc1 import nc1_file
 from worked_steps import steps
@@ -65,7 +66,7 @@ def test_constants_are_those_of_the_template():
 
 
 def test_every_step_of_the_page_is_what_the_arithmetic_gives():
-    page, expected = dict(SYMBOL.findall(PAGE)), steps()
+    page, expected = dict(SYMBOL.findall(PAGE)), steps() | detail_steps()
     assert page.keys() == expected.keys()
     wrong = {symbol: text for symbol, text in page.items() if not _says(text, expected[symbol])}
     assert not wrong
