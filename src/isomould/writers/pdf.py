@@ -33,6 +33,11 @@ def write_pdf(path: Path, book: Book, subject: str) -> None:
     OutputFault
         If the file cannot be written.
     """
+    write_bytes(path, pdf_bytes(book, subject))
+
+
+def pdf_bytes(book: Book, subject: str) -> bytes:
+    """Give the bytes of a book of pages."""
     rl_config.useA85 = 0  # the streams need not be text
     stream = io.BytesIO()
     canvas = Canvas(stream, invariant=1, pageCompression=1)
@@ -42,7 +47,7 @@ def write_pdf(path: Path, book: Book, subject: str) -> None:
     for page in book.pages:
         _add_page(canvas, page)
     canvas.save()
-    write_bytes(path, stream.getvalue())
+    return stream.getvalue()
 
 
 def _add_page(canvas: Canvas, page: Page) -> None:
