@@ -1,6 +1,6 @@
 """isomould: from two curves to everything a shop needs to build a free-form gridshell."""
 
-from isomould.api import Checked, build, check, compare, draw, explore, frames, nest, new, schedule, verify
+from isomould.api import Checked, NestFiles, build, check, compare, draw, explore, frames, nest, new, schedule, verify
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
 from isomould.pipeline import Built, Run
 
@@ -9,6 +9,7 @@ __all__ = [
     "CertificateFailed",
     "Checked",
     "IsomouldError",
+    "NestFiles",
     "Note",
     "OutputFault",
     "Refused",

@@ -1,12 +1,13 @@
 """The verbs of the command line as functions of the same names."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
+from isomould.delivery.nested import check_targets, write_plan, write_sheets
 from isomould.delivery.pictures import View, design_picture
 from isomould.design import Design, make_design, requests_of
 from isomould.documents.overview import Fact, kit_facts
@@ -15,8 +16,9 @@ from isomould.documents.table import Table
 from isomould.errors import Note, Refused
 from isomould.family import kit_table, make_designs
 from isomould.form.survey import Division, survey
+from isomould.intake.read import Asked, read_part_list
+from isomould.intake.stock import read_stock
 from isomould.nesting.files import layout_to_json
-from isomould.nesting.instance import read_instance
 from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
@@ -28,6 +30,7 @@ from isomould.project.schema import MAIN, Project
 from isomould.repetition import is_priced, make_pricing, price_families
 from isomould.study import Study, make_study
 from isomould.templates import copy_template
+from isomould.units import LengthUnit
 from isomould.verify import Certificate, verify_folder
 from isomould.workers import workers
 from isomould.writers.csv import csv_text
@@ -146,6 +149,32 @@ def verify(folder: str | Path, jobs: int | None = None) -> Certificate:
         return verify_folder(Path(folder), spread=spread)
 
 
+@dataclass(frozen=True)
+class NestFiles:
+    """What `nest` reads and writes beside part list and layout.
+
+    Attributes
+    ----------
+    stock
+        A TOML file with a `[stock]` table, such as a project: its keys take the place of the part list's.
+    sheets
+        A folder for the sheets as DXF.
+    plan
+        A PDF file for the cutting plan.
+    overwrite
+        Whether a folder of earlier sheets may be replaced.
+    units, layer
+        Of drawings and tables that do not say their unit; where drawings have their outline.
+    """
+
+    stock: Path | None = None
+    sheets: Path | None = None
+    plan: Path | None = None
+    overwrite: bool = False
+    units: LengthUnit | None = None
+    layer: str = "CUT"
+
+
 def nest(
     instance: str | Path,
     out: str | Path,
@@ -153,15 +182,17 @@ def nest(
     stop: Stop | None = None,
     progress: Progress | None = None,
     jobs: int | None = None,
+    files: NestFiles | None = None,
+    remark: Callable[[Note], None] | None = None,
 ) -> Layout:
-    """Nest a part list of any origin and write the layout as JSON.
+    """Nest a part list of any origin and write the layout as JSON, and sheets and cutting plan where asked for.
 
     Parameters
     ----------
     instance
-        A part list (JSON).
+        A part list (JSON, CSV), a folder of drawings, or a delivered folder, whose panels are nested.
     out
-        The layout file; it is written whole or not at all.
+        The layout file; it is written whole or not at all, and so is each of the others.
     effort
         Iterations of the search.
     stop
@@ -170,13 +201,35 @@ def nest(
         Told iterations done, iterations in all, sheets so far and their lower bound.
     jobs
         Processes, None for one per core: they change the time, never the result.
+    files
+        Stock, sheets and plan.
+    remark
+        Told what of the part list is not read or not as drawn.
+
+    Raises
+    ------
+    Refused
+        Naming file and field, if part list, stock or targets are not as they should be; nothing is written.
     """
-    stop = stop or Stop()
-    given = read_instance(Path(instance))
-    layout = nest_sheets(given.parts, given.stock, Search(effort, progress, stop, jobs))
+    stop, files = stop or Stop(), files or NestFiles()
+    check_targets(files.sheets, files.plan, overwrite=files.overwrite)
+    given = read_part_list(
+        Path(instance), Asked(read_stock(files.stock) if files.stock else {}, files.units, files.layer)
+    )
+    for note in given.notes:
+        (remark or _ignore)(note)
+    layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
     replace_file(Path(out), layout_to_json(layout).encode())
+    if files.sheets:
+        write_sheets(files.sheets, layout, given, overwrite=files.overwrite)
+    if files.plan:
+        write_plan(files.plan, layout, given)
     return layout
+
+
+def _ignore(_: Note) -> None:
+    """Tell nobody."""
 
 
 def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | None = None) -> tuple[Compared, ...]:

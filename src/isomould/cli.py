@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import click
 from rich.console import Console
@@ -21,15 +21,17 @@ from isomould.api import View
 from isomould.comparison import families_table
 from isomould.documents import table as tables
 from isomould.documents.numbers import format_number
-from isomould.errors import IsomouldError
+from isomould.errors import IsomouldError, Note
 from isomould.form.survey import Division
 from isomould.nesting.search import Effort
 from isomould.nesting.stop import Stop
 from isomould.templates import describe_template, template_names
+from isomould.units import LengthUnit
 from isomould.verify import Check
 
 _EFFORT = click.Choice(["quick", "normal", "best"])
 _VIEW = click.Choice(["axonometry", "plan", "elevation", "developed", "curvature"])
+_UNITS = click.Choice(get_args(LengthUnit))
 _INTERRUPTED = 130
 _STATUS = {"pass": "pass", "fail": "FAIL", "not_applicable": "none"}
 
@@ -139,12 +141,19 @@ def verify(folder: Path) -> None:
 @click.option("--effort", type=_EFFORT, default="normal", show_default=True)
 @click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; they change the time, not the layout.")
-def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None, jobs: int | None) -> None:
-    """Nest a part list of any origin (JSON) on stock sheets and write the layout."""
+@click.option("--stock", type=click.Path(path_type=Path), help="TOML file with a [stock] table, such as a project.")
+@click.option("--sheets", type=click.Path(path_type=Path), help="Folder to write the sheets to, as DXF.")
+@click.option("--plan", type=click.Path(path_type=Path), help="Cutting plan (PDF) to write.")
+@click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
+@click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
+@click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
+def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None, jobs: int | None, **files: Any) -> None:
+    """Nest a part list of any origin on stock sheets: JSON, CSV, a folder of drawings (DXF), or a delivery."""
     stop = Stop(time_limit)
     signal.signal(signal.SIGINT, stop.interrupt)
     click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
-    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()), jobs)
+    asked = isomould.NestFiles(**files)
+    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()), jobs, asked, _remark)
     _say(
         f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
         f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
@@ -153,13 +162,18 @@ def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None, jo
         sys.exit(_INTERRUPTED)
 
 
+def _remark(note: Note) -> None:
+    _warn(f"note: {note}")
+
+
 def _tell_sheets(told: set[int]) -> Callable[[int, int, int, int], None]:
     """Give a progress that tells every number of sheets once."""
 
     def tell(_: int, __: int, sheets: int, bound: int) -> None:
         if sheets not in told:
             told.add(sheets)
-            click.echo(f"{sheets} sheets, {sheets - bound} above the lower bound", err=True)
+            above = f", at least {bound} needed, {sheets - bound} above that" if bound > 0 else ""
+            click.echo(f"{sheets} sheets{above}", err=True)
 
     return tell
 

@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+from pypdf import PdfReader
 
 import isomould
 from museum import SMALL, changed
@@ -120,6 +121,27 @@ def test_nest(tmp_path):
     layout = json.loads((tmp_path / "layout.json").read_text())
     assert layout["status"] == "complete"
     assert sorted(placement["id"] for placement in layout["placements"]) == [0, 1, 2, 3, 4]
+
+
+def test_nest_writes_sheets_and_plan_or_nothing(tmp_path):
+    """From a CSV; without room for the sheets, or with a plan that is no PDF, nothing is nested."""
+    (tmp_path / "parts.csv").write_text("mark,qty,a,b,h,ol,orr\nP1,6,900,820,700,40,40\n")
+    (tmp_path / "stock.toml").write_text('[stock]\nsheets = [{name = "A", width = "3 m", height = "2 m"}]\n')
+    command = ("nest", "parts.csv", "--stock", "stock.toml", "--out", "layout.json", "--effort", "quick")
+    refused = run(*command, "--plan", "plan.doc", folder=tmp_path)
+    assert (refused.returncode, "E-OUT-11" in refused.stderr) == (2, True)
+    assert not (tmp_path / "layout.json").exists()
+    nested = run(*command, "--sheets", "cut", "--plan", "plan.pdf", folder=tmp_path)
+    assert nested.returncode == 0, nested.stderr
+    sheets = {sheet["id"] for sheet in json.loads((tmp_path / "layout.json").read_text())["sheets"]}
+    assert {path.stem for path in (tmp_path / "cut").iterdir()} == sheets
+    text = "\n".join(page.extract_text() for page in PdfReader(tmp_path / "plan.pdf").pages)
+    assert all(word in text for word in (*sheets, "P1", "Yield", "Offcut"))
+    (tmp_path / "cut" / "notes.txt").write_text("mine")
+    for more in ((), ("--replace",)):
+        refused = run(*command, "--sheets", "cut", *more, folder=tmp_path)
+        assert (refused.returncode, "notes.txt" in refused.stderr) == (2, True)
+    assert (tmp_path / "cut" / "notes.txt").read_text() == "mine"
 
 
 def test_an_interrupted_nest_keeps_the_best_layout(tmp_path):

@@ -4,7 +4,7 @@ The file is read strictly: what a lenient reader would repair or leave out is re
 """
 
 import logging
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -68,6 +68,21 @@ def trace_layer(drawing: Drawing, field: str) -> tuple[list[Traced], tuple[Note,
     return [_traced(one, factor, field) for one in found], _remarks(found, field)
 
 
+def trace_layers(
+    path: Path, layers: Sequence[str], units: LengthUnit | None, field: str
+) -> tuple[list[list[Traced]], list[str]]:
+    """Give what is drawn on each of some layers, mm, and the names of all other layers that hold anything.
+
+    The first layer has to hold something. Errors are those of `trace_layer`.
+    """
+    document = _open(path, field)
+    factor = _factor(document, units, field)
+    found = [_on_layer(document, layers[0], field), *(_visible_on(document, layer, field) for layer in layers[1:])]
+    known = {layer.casefold() for layer in layers}
+    others = {entity.dxf.layer for entity in document.modelspace() if entity.dxf.layer.casefold() not in known}
+    return [[_traced(one, factor, field) for one in layer] for layer in found], sorted(others)
+
+
 # --- the file
 
 
@@ -128,15 +143,19 @@ _CONVERT = "Convert the drawing to millimetres."
 
 
 def _on_layer(document: Document, layer: str, field: str) -> list[_Found]:
-    with _guarded("E-DXF-BLOCK", field, "the blocks cannot be read"):
-        scope = _Scope(document, layer, None, np.eye(4))
-        found = [f for entity in document.modelspace() for f in _visible(entity, scope, field)]
+    found = _visible_on(document, layer, field)
     if not found:
         layers = sorted({entity.dxf.layer for entity in document.modelspace()})
         limit = f"one of {', '.join(layers[:12])}" if layers else "a drawing with entities"
         _refuse("LAYER", f"{field}.layer", f"nothing on layer {layer!r}", limit, "Check the layer's name.")
     _refuse_hidden(document, layer, field)
     return found
+
+
+def _visible_on(document: Document, layer: str, field: str) -> list[_Found]:
+    with _guarded("E-DXF-BLOCK", field, "the blocks cannot be read"):
+        scope = _Scope(document, layer, None, np.eye(4))
+        return [f for entity in document.modelspace() for f in _visible(entity, scope, field)]
 
 
 class _Scope(NamedTuple):

@@ -1,0 +1,195 @@
+"""Part lists of any origin: a JSON file, a CSV file, or a folder of drawings becomes one value."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, get_args
+
+from isomould.arrays import Floats
+from isomould.errors import Note
+from isomould.intake.csv_list import Line, Sheet, read_sheet
+from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
+from isomould.intake.numbers import to_count
+from isomould.intake.part_list import PartList
+from isomould.nesting.instance import Instance, make_stock, read_instance
+from isomould.nesting.layout import Part
+from isomould.nesting.part_rows import TRAPEZOID, Row, read_parts, refuse
+from isomould.units import LengthUnit
+
+QUANTITIES = "parts.csv"
+"""The table of a folder of drawings."""
+
+_NAMED = re.compile(r"(?P<id>.+?)[ _-](?:x(?P<after>\d+)|(?P<before>\d+)x)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a user says beside the part list: keys of the `[stock]` table, units, and the layer of outlines."""
+
+    stock: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    units: LengthUnit | None = None
+    layer: str = "CUT"
+
+
+def read_part_list(path: Path, asked: Asked | None = None) -> PartList:
+    """Read a part list: a folder of drawings, a delivered folder (its panels), a CSV file, or else JSON.
+
+    Raises
+    ------
+    Refused
+        Naming file, field, what was found, the limit, and a way out.
+    OutputFault
+        If a file cannot be read.
+    """
+    asked = asked or Asked()
+    _refuse_units(asked)
+    if path.is_dir():
+        delivered = path / "panels"
+        return _read_folder(delivered if (path / "tables" / "panels.csv").is_file() else path, asked)
+    if path.suffix.lower() == ".csv":
+        return _read_csv(path, asked)
+    return PartList(read_instance(path, asked.stock))
+
+
+def _refuse_units(asked: Asked) -> None:
+    if asked.units not in (None, *get_args(LengthUnit)):
+        refuse("--units", repr(asked.units), f"one of {', '.join(get_args(LengthUnit))}", "Name a unit.")
+
+
+# --- CSV
+
+
+def _read_csv(path: Path, asked: Asked) -> PartList:
+    sheet = read_sheet(path, asked.units, ("id", "quantity"))
+    drawn = {line.field: read_drawn_part(file, asked.layer, asked.units) for line, file in _files(sheet, path.parent)}
+    return _made(path.stem, sheet, drawn, asked)
+
+
+def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
+    """Give the rows that name a drawing, and where it lies: beside the table, or beside its folder."""
+    for line in sheet.lines:
+        named = [name.strip() for name in line.cells.get("files", "").split(";")]
+        drawing = next((name for name in named if name.lower().endswith(".dxf")), None)
+        if drawing is not None:
+            places = [folder / drawing, folder.parent / drawing]
+            found = next((place for place in places if place.is_file()), None)
+            if found is None:
+                limit = f"a drawing in {folder} or {folder.parent}"
+                refuse(f"{line.field}: files", f"{drawing} is no file", limit, "Put the drawing there.")
+            yield line, found
+
+
+def _made(name: str, sheet: Sheet, drawn: Mapping[str, DrawnPart], asked: Asked) -> PartList:
+    """Make the parts of a table, some of them drawn."""
+    rows = [_row(sheet, line, drawn.get(line.field)) for line in sheet.lines]
+    parts = read_parts(rows, sheet.file)
+    instance = Instance(name, parts, make_stock(asked.stock, sheet.file))
+    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], _ignored(sheet))
+
+
+def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None) -> Row:
+    group = {"row": line.cells["row"]} if line.cells.get("row") else {}
+    table = {"id": line.cells["id"], "quantity": sheet.quantity(line), **group}
+    if drawn is not None:
+        return {**table, "points": drawn.outline.tolist()}, line.field
+    if line.cells.get("points"):
+        return {**table, "points": sheet.points(line)}, line.field
+    missing = [key for key in TRAPEZOID if not line.cells.get(key)]
+    if missing:
+        found = f"no {', no '.join(missing)}"
+        refuse(
+            line.field, found, "files, or points, or all of a, b, h, ol, orr", "Describe the part in one of these ways."
+        )
+    return {**table, **{key: sheet.number(line, key) for key in TRAPEZOID}}, line.field
+
+
+def _ignored(sheet: Sheet) -> tuple[Note, ...]:
+    if not sheet.ignored or _is_ours(sheet):
+        return ()
+    return (Note("W-PART-COLUMNS", sheet.file, f"not read: {', '.join(sheet.ignored[:12])}"),)
+
+
+def _is_ours(sheet: Sheet) -> bool:
+    """Tell a schedule of a delivery, whose columns are known to say more than the nesting asks."""
+    return Path(sheet.file).parent.name == "tables"
+
+
+def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes: tuple[Note, ...]) -> PartList:
+    """Add the holes of the drawings, and say what of them is not as drawn."""
+    pairs = [(part, one) for part, one in zip(instance.parts, drawn, strict=True) if one is not None]
+    holes = {part.id: one.holes for part, one in pairs if one.holes}
+    rounded = [str(part.id) for part, one in pairs if one.rounded]
+    ignored = sorted({layer for _, one in pairs for layer in one.ignored})
+    more = [
+        *(
+            [Note("W-PART-ARC", _listed(rounded), f"arcs are cut as lines up to {OUTWARD:g} mm outside")]
+            if rounded
+            else []
+        ),
+        *([Note("W-PART-LAYER", instance.name, f"layers not read: {_listed(ignored)}")] if ignored else []),
+    ]
+    return PartList(instance, holes, (*notes, *more))
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
+
+
+# --- a folder of drawings
+
+
+def _read_folder(folder: Path, asked: Asked) -> PartList:
+    drawings = sorted(path for path in folder.iterdir() if path.suffix.lower() == ".dxf")
+    if not drawings:
+        refuse(str(folder), "no DXF file", "a drawing (DXF) per class of parts", "Give the folder that holds them.")
+    table = _table_of(folder)
+    return _read_listed(table, drawings, asked) if table else _read_named(folder, drawings, asked)
+
+
+def _table_of(folder: Path) -> Path | None:
+    """Give the table of quantities: in the folder, or that of the delivery whose part files these are."""
+    places = (folder / QUANTITIES, folder.parent / "tables" / f"{folder.name}.csv")
+    return next((place for place in places if place.is_file()), None)
+
+
+def _read_listed(table: Path, drawings: Sequence[Path], asked: Asked) -> PartList:
+    """Read the drawings that a table counts: named there, or called like the part."""
+    sheet = read_sheet(table, asked.units, ("id", "quantity"))
+    by_name = {path.stem: path for path in drawings}
+    named = {line.field: file for line, file in _files(sheet, table.parent)}
+    files = {line.field: named.get(line.field) or by_name.get(line.cells["id"]) for line in sheet.lines}
+    for line in sheet.lines:
+        if files[line.field] is None:
+            limit = f"a drawing in {drawings[0].parent}"
+            refuse(
+                f"{line.field}: id",
+                f"{line.cells['id']}.dxf is no file",
+                limit,
+                "Add the drawing, or files to the table.",
+            )
+    left = {path.resolve() for path in drawings} - {file.resolve() for file in files.values() if file}
+    if left:
+        found = f"no row for {_listed(sorted(path.name for path in left))}"
+        refuse(str(table), found, "every drawing of the folder", "Add the rows, or move the drawings away.")
+    drawn = {key: read_drawn_part(file, asked.layer, asked.units) for key, file in files.items() if file}
+    return _made(drawings[0].parent.name, sheet, drawn, asked)
+
+
+def _read_named(folder: Path, drawings: Sequence[Path], asked: Asked) -> PartList:
+    """Read drawings whose names say how many there are: P01_x4.dxf or P01_4x.dxf."""
+    names = {path: _NAMED.fullmatch(path.stem) for path in drawings}
+    silent = [path.name for path, match in names.items() if match is None]
+    if silent:
+        way_out = f"Add {QUANTITIES} with the columns id and quantity, or name the files like P01_x4.dxf."
+        refuse(str(folder), f"how many of {_listed(silent)}?", "a quantity for every drawing", way_out)
+    drawn = {path: read_drawn_part(path, asked.layer, asked.units) for path in drawings}
+    rows = [_named_row(match["id"], match["after"] or match["before"], path, drawn[path].outline)
+            for path, match in names.items() if match]  # fmt: skip
+    parts: tuple[Part, ...] = read_parts(rows, str(folder))
+    instance = Instance(folder.resolve().name, parts, make_stock(asked.stock, str(folder)))
+    return _with_drawings(instance, list(drawn.values()), ())
+
+
+def _named_row(mark: str, quantity: str, path: Path, outline: Floats) -> Row:
+    return {"id": mark, "quantity": to_count(quantity, str(path)), "points": outline.tolist()}, str(path)
