@@ -16,7 +16,7 @@ from isomould.form.mesh import make_mesh
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.slivers import inner_angles_deg, side_lengths, weigh_panels
 from isomould.project.load import validate
-from museum import MONGE, SMALL, TEMPLATES, VAULT, changed, design, dome, sphere, trimmed
+from museum import MONGE, SMALL, TEMPLATES, VAULT, changed, design, dome, sketched, sphere, template, trimmed
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float) * 100
 TURNS = np.linspace(0, 2.6 * np.pi, 27)
@@ -153,6 +153,11 @@ def test_overhangs_are_noted():
     form = make_form(*ingredients(validate(changed(SMALL, generatrix=table), "museum")))
     (note,) = [note for note in form.notes if note.code == "W-GENERATRIX-OVERHANG"]
     assert "rows hang over" in note.text
+
+
+def test_a_closed_generatrix_hangs_over_by_nature():
+    """A torus whose poles are closed by caps, so that its profile is open."""
+    assert "W-GENERATRIX-OVERHANG" not in {note.code for note in sketched(template("torus")).notes}
 
 
 def ingredients(project):

@@ -90,7 +90,8 @@ def make_form(
     seam_notes = refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
-    notes = (*_turning_notes(rail), *overhang_notes(surface.profile), *pole_notes, *_sagitta_notes(rail), *seam_notes)
+    hanging = () if generatrix_curve.closed else overhang_notes(surface.profile)  # what is closed hangs over by nature
+    notes = (*_turning_notes(rail), *hanging, *pole_notes, *_sagitta_notes(rail), *seam_notes)
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
     if isinstance(rail, CurvePolygon):
