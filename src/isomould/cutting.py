@@ -152,5 +152,6 @@ def _member_parts(kit: Kit) -> tuple[Member, ...]:
 
 
 def _panel_work(kit: Kit, stock: StockSettings, task: Search) -> Callable[[], Layout]:
-    parts = _panel_parts(kit)
+    """Nest panels face up: what is fixed to them has its side."""
+    parts, stock = _panel_parts(kit), stock.model_copy(update={"turn_over": False})
     return partial(nest_sheets, parts, stock, task) if stock.sheets else partial(nest_blanks, parts, stock)

@@ -84,4 +84,6 @@ def racks(draw: st.DrawFn) -> StockSettings:
         kerf=draw(st.sampled_from([0.0, gap, gap / 2])),
         trim=draw(st.sampled_from([0.0, 10.0, 12.3456])),
         turning=draw(st.sampled_from(["none", "half", "quarter"])),
+        turn_over=draw(st.booleans()),
+        guillotine=draw(st.booleans()),
     )

@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -77,7 +77,7 @@ def _moved(plan: SheetPlan, stock: StockSettings, length: int) -> tuple[list[Pla
     trim = round_away(stock.trim * UM)
     saw = Saw(stock.gap * UM, round_away(stock.gap * UM), flips=stock.turning != "none")
     placed, tree = place(plan, saw, length)
-    moved = [Placed(item.part, item.points + trim, item.rotation_deg) for item in placed]
+    moved = [replace(item, points=item.points + trim) for item in placed]
     return moved, map_tree(tree, lambda line: [[(x + trim) / UM, (y + trim) / UM] for x, y in line], 0)
 
 
@@ -106,7 +106,7 @@ def make_layout(fillings: Sequence[Filling], bound: Bound, *, ended: bool) -> La
 
 
 def _placement(sheet: str, piece: Piece, placed: Placed) -> Placement:
-    return Placement(*piece, sheet, read_only(_mm(placed.points)), placed.rotation_deg)
+    return Placement(*piece, sheet, read_only(_mm(placed.points)), placed.rotation_deg, placed.turned_over)
 
 
 def _mm(points: Ints) -> Floats:

@@ -6,7 +6,7 @@ from edge to edge.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -27,6 +27,7 @@ class Placed:
     part: int
     points: Ints
     rotation_deg: int
+    turned_over: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,7 @@ def _lay_strip(strip: Strip, saw: Saw) -> Laid:
 
 def _raise(laid: Laid, y: int) -> Laid:
     placed, tree = laid
-    up = [Placed(item.part, item.points + np.array([0, y]), item.rotation_deg) for item in placed]
+    up = [replace(item, points=item.points + np.array([0, y])) for item in placed]
     return up, map_tree(tree, lambda line: [[one, other + y] for one, other in line], 0)
 
 
@@ -100,7 +101,11 @@ def _turn_down(laid: Laid, length: int) -> Laid:
     """Turn by a quarter clockwise: what began at the left of a strip begins at the top, `length` up."""
     placed, tree = laid
     down = [
-        Placed(item.part, rotate(item.points, 270) + np.array([0, length]), (item.rotation_deg + 270) % 360)
+        replace(
+            item,
+            points=rotate(item.points, 270) + np.array([0, length]),
+            rotation_deg=(item.rotation_deg + 270) % 360,
+        )
         for item in placed
     ]
     return down, map_tree(tree, lambda line: [[y, length - x] for x, y in line], 0)
@@ -125,7 +130,8 @@ def _lay_block(block: Block, saw: Saw, start: int) -> list[_Piece]:
 
 
 def _placed(piece: _Piece) -> Placed:
-    return Placed(piece.part, piece.shape.points + np.array([piece.x, 0]), piece.shape.rotation_deg)
+    shape = piece.shape
+    return Placed(piece.part, shape.points + np.array([piece.x, 0]), shape.rotation_deg, shape.turned_over)
 
 
 def _cut_run(run: list[list[_Piece]], saw: Saw) -> CutTree:

@@ -11,7 +11,7 @@ from isomould.errors import Refused
 from isomould.nesting.bound import Room, bound_stock, fits, room_inside
 from isomould.nesting.cover import PLENTY, Rack
 from isomould.nesting.layout import Id, Part
-from isomould.nesting.settings import SheetStock, StockSettings, Turning, allowed_rotations_deg
+from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away, stand
 from isomould.nesting.sheets import Frame
 from isomould.nesting.strips import Grid, Kind, sort_kinds
@@ -69,7 +69,7 @@ def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
 def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
     """Set up every way to cut every stock sheet."""
     rooms = [room_inside(sheet.width, sheet.height, stock.trim) for sheet in stock.sheets]
-    grid = make_grid(max(max(room.width, room.height) for room in rooms), stock.gap, stock.turning)
+    grid = make_grid(max(max(room.width, room.height) for room in rooms), stock)
     frames = [frame for index in range(len(rooms)) for frame in _frames(index, rooms, classes, stock, grid)]
     pieces = [PLENTY if sheet.quantity is None else sheet.quantity for sheet in stock.sheets]
     areas = _areas(classes, rooms)
@@ -86,7 +86,7 @@ def make_blank_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
     """Set up blanks to order: the longest strip, as high as the highest part, without quarter turns."""
     height = max(int(np.ptp(micrometres(kind.outline)[:, 1])) for kind in classes)
     room = Room(blank_length(stock), height)
-    grid = make_grid(room.width, stock.gap, stock.turning)
+    grid = make_grid(room.width, stock)
     kinds = classes_by_kind(classes, (0,), grid)
     frame = _frame(Case(0, False, room.width, room.height, 1.0, 1.0), kinds, grid)
     return Rack((frame,), np.array([PLENTY]), _areas(classes, [room]))
@@ -97,9 +97,10 @@ def blank_length(stock: StockSettings) -> int:
     return room_inside(stock.max_blank_length, stock.max_blank_length, stock.trim).width
 
 
-def make_grid(longest: int, gap: float, turning: Turning) -> Grid:
+def make_grid(longest: int, stock: StockSettings) -> Grid:
     """Give a grid that is fine enough for panels and coarse enough for coils."""
-    return Grid(STEP * max(1, -(-longest // (STEP * LONGEST))), gap * UM, flips=turning != "none")
+    step = STEP * max(1, -(-longest // (STEP * LONGEST)))
+    return Grid(step, stock.gap * UM, flips=stock.turning != "none", turns_over=stock.turn_over)
 
 
 def _areas(classes: Sequence[PartClass], rooms: Sequence[Room]) -> Floats:

@@ -26,6 +26,8 @@ class Shape:
         Convex hull, counter-clockwise.
     mean : float, micrometres
         Width of the trapezoid around it at half its height.
+    turned_over
+        Mirrored, x to -x, before the rotation.
     """
 
     points: Ints
@@ -34,6 +36,7 @@ class Shape:
     left: float
     right: float
     mean: float
+    turned_over: bool = False
 
     @property
     def width(self) -> int:
@@ -64,7 +67,12 @@ def stand(outline: Floats, rotation_deg: int) -> Shape:
 
 def turn_half(shape: Shape) -> Shape:
     """Turn a shape by 180 degrees: its legs change places, their slopes stay."""
-    return _shape(-shape.points, (shape.rotation_deg + 180) % 360)
+    return _shape(-shape.points, (shape.rotation_deg + 180) % 360, turned_over=shape.turned_over)
+
+
+def turn_over(shape: Shape) -> Shape:
+    """Mirror a shape, x to -x: its legs change places and sides. What was turned is now turned the other way."""
+    return _shape(shape.points * np.array([-1, 1]), -shape.rotation_deg % 360, turned_over=not shape.turned_over)
 
 
 def micrometres(points: Floats) -> Ints:
@@ -78,11 +86,11 @@ def rotate(points: Ints, rotation_deg: int) -> Ints:
     return points @ np.array([[cos, sin], [-sin, cos]])
 
 
-def _shape(points: Ints, rotation_deg: int) -> Shape:
+def _shape(points: Ints, rotation_deg: int, *, turned_over: bool = False) -> Shape:
     points = read_only(points - points.min(axis=0))
     hull = _hull(points)
     (left, start), (right, end) = _leg(hull, -1), _leg(hull, 1)
-    return Shape(points, hull, rotation_deg, left, right, end - start)
+    return Shape(points, hull, rotation_deg, left, right, end - start, turned_over)
 
 
 def _hull(points: Ints) -> Ints:

@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints
-from isomould.nesting.shapes import Shape, round_away, turn_half
+from isomould.nesting.shapes import Shape, round_away, turn_half, turn_over
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,11 +44,12 @@ class Kind:
 
 @dataclass(frozen=True)
 class Grid:
-    """How strips are measured: lengths in micrometres, rounded up to `step`."""
+    """How strips are measured, in micrometres rounded up to `step`, and which half turns and mirrorings are free."""
 
     step: int
     gap: float
     flips: bool
+    turns_over: bool = False
 
     def up(self, length: float) -> int:
         """Give the grid steps that hold a length."""
@@ -57,15 +58,20 @@ class Grid:
 
 def sort_kinds(shapes: Sequence[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> tuple[Kind, ...]:
     """Group (part, shape) into kinds, ascending in height; a kind of one piece counts as its box."""
-    poised = [(part, _poised(shape) if grid.flips else shape) for part, shape in shapes]
+    poised = [(part, _poised(shape, grid)) for part, shape in shapes]
     poised.sort(key=lambda pair: (pair[1].height, pair[1].left, pair[1].right, pair[0]))
     groups = (list(group) for _, group in groupby(poised, key=lambda pair: pair[1].height))
     return tuple(_kind(alike, pieces, grid) for group in groups for alike in _alike(group, grid.gap))
 
 
-def _poised(shape: Shape) -> Shape:
-    """Turn a shape so that its left leg leans further to the right than its right leg."""
-    return shape if shape.left >= shape.right else turn_half(shape)
+def _poised(shape: Shape, grid: Grid) -> Shape:
+    """Turn a shape so that its left leg leans further to the right than its right leg, and both more than to the left.
+
+    Mirror images thus become one kind where parts may be turned over.
+    """
+    if grid.turns_over and shape.left + shape.right < 0:
+        shape = turn_over(shape)
+    return turn_half(shape) if grid.flips and shape.left < shape.right else shape
 
 
 def _alike(group: list[tuple[int, Shape]], gap: float) -> Iterator[list[tuple[int, Shape]]]:
