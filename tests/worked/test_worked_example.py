@@ -11,6 +11,7 @@ from worked_details import detail_steps
 from worked_nc1 import NUMBER as ORDER
 from worked_nc1 import nc1_file
 from worked_steps import steps
+from worked_templates import other_templates
 
 from isomould.design import kit_settings, make_design
 from isomould.documents.member_files import member_nc_parts
@@ -40,6 +41,10 @@ def design():
 @pytest.fixture(scope="module")
 def schedules(design) -> dict[str, list[dict]]:
     """Rows of the program's tables by name."""
+    return schedule_rows(design)
+
+
+def schedule_rows(design) -> dict[str, list[dict]]:
     solids = make_solids(design.kit.nodes, design.kit.joints)
     tables = part_tables(design.kit, kit_settings(design.project), solids, {}, {}, drawn=True)
     return {table.name: _rows(table) for table in tables}
@@ -66,7 +71,7 @@ def test_constants_are_those_of_the_template():
 
 
 def test_every_step_of_the_page_is_what_the_arithmetic_gives():
-    page, expected = dict(SYMBOL.findall(PAGE)), steps() | detail_steps()
+    page, expected = dict(SYMBOL.findall(PAGE)), steps() | detail_steps() | other_templates()
     assert page.keys() == expected.keys()
     wrong = {symbol: text for symbol, text in page.items() if not _says(text, expected[symbol])}
     assert not wrong
