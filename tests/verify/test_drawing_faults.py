@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from isomould.verify.rules import judge
 
 BY_ID = {rule.id: rule for rule in RULES}
 SHEETS = ("V43f", "V45", "V45b", "V45c", "V45d")
+"""What concerns every folder with drawings; V45e only those with holes or trimmed panels."""
 
 
 @pytest.fixture
@@ -52,6 +54,39 @@ def cut_length(folder):
     """A dimension of a member, one digit changed."""
     length = rows_of(folder, "members")[0]["cut_length_mm"]
     return f"({length}) Tj".encode(), f"({length[:-1]}{(int(length[-1]) + 1) % 10}) Tj".encode()
+
+
+def last_digit(text):
+    head, digit = re.fullmatch(r"(.*?)(\d)(\D*)", text).group(1), re.findall(r"\d", text)[-1]
+    return f"{head}{(int(digit) + 1) % 10}{text[len(head) + 1 :]}"
+
+
+def second(kind, column, form="{}"):
+    """Change a digit of a dimension where it stands in the view: behind the list, which comes first."""
+
+    def seed(folder):
+        value = form.format(rows_of(folder, kind)[0][column])
+        path = folder / "drawings" / f"{kind}.pdf"
+        writer = PdfWriter(clone_from=path)
+        stream = writer.pages[0]["/Contents"].get_object()
+        old, new = (f"({text}) Tj".encode("cp1252") for text in (value, last_digit(value)))
+        old, new = (text.replace(b"\xb0", b"\\260") for text in (old, new))
+        data = stream.get_data()
+        assert old in data
+        at = data.rindex(old)
+        stream.set_data(data[:at] + new + data[at + len(old) :])
+        writer.write(path)
+
+    return seed
+
+
+def wider_slot(folder):
+    return b"(Slots 12.5 wide", b"(Slots 13.5 wide"
+
+
+def set_back_of_an_arm(folder):
+    back = rows_of(folder, "members")[0]["set_back_start_mm"]
+    edit_pdf("nodes", shown(back, last_digit(back)))(folder)
 
 
 def edit_dxf(folder):
@@ -95,6 +130,12 @@ SEEDS = {
     "a digit of a mass in the schedule": ("V45b", edit_table("nodes", digit("mass_kg"))),
     "a digit of a height in the schedule": ("V45b", edit_table("panels", digit("height_mm"))),
     "a digit of a dimension on the drawing": ("V45b", edit_pdf("members", cut_length)),
+    "a digit of a diagonal in its view": ("V45b", second("panels", "diagonal_2_mm")),
+    "a digit of an angle in its view": ("V45b", second("panels", "angle_2_deg", "{}°")),
+    "a digit of a side in its view": ("V45c", second("panels", "side_b_mm")),
+    "a whole number that is nowhere": ("V45c", edit_pdf("panels", shown("Quantity", "777"))),
+    "a set-back in the table of arms": ("V45c", set_back_of_an_arm),
+    "a slot of another width": ("V45c", edit_pdf("nodes", wider_slot)),
     "a dimension that is in no schedule": ("V45c", edit_pdf("members", cut_length)),
     "part file of another size": ("V45c", shear_member),
     "location": ("V45d", edit_table("member_instances", other_location)),

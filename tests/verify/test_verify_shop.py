@@ -71,6 +71,7 @@ def rows(folder, name):
         "V45b",
         "V45c",
         "V45d",
+        "V45e",
         "V48",
     ],
 )
@@ -203,11 +204,25 @@ def lose_nc1(folder):
     (folder / "nodes" / f"{support(folder)}-stem.nc1").unlink()
 
 
+def move_corner(space):
+    outline = space.query("LWPOLYLINE[layer=='CUT']")[0]
+    points = outline.get_points("xyb")
+    outline.set_points([(points[0][0] - 0.05, *points[0][1:]), *points[1:]], format="xyb")
+
+
+def at_trimmed(change):
+    """Change the part file of a panel whose corners are listed."""
+    return lambda folder: edit(f"panels/{next(r['mark'] for r in rows(folder, 'panels') if r['outline'])}.dxf", change)(
+        folder
+    )
+
+
 SEEDS = {
     "hole of a base plate told elsewhere": ("V42f", edit_nc1("{}.nc1", r"30\.00u", "30.02u")),
     "corner of a stem told elsewhere": ("V42f", edit_nc1("{}-stem.nc1", r"0\.00u      0\.00", "0.02u      0.00")),
     "stem without NC1": ("V42f", lose_nc1),
     "thickness of a base plate": ("V42g", edit_nc1("{}.nc1", r"     15\.00", "     12.00")),
+    "corner moved": ("V45e", at_trimmed(move_corner)),
     "hole lost": ("V28b", at_base(delete_hole)),
     "hole too wide": ("V28b", at_base(widen_hole)),
     "hole at the edge": ("V28b", at_base(move_hole)),

@@ -2,35 +2,31 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
-
-import numpy as np
+from collections.abc import Iterator
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.read.dxf import Drawing, one_outline, outlines_on
 from isomould.verify.read.pdf import Book, Sheet
 from isomould.verify.read.tables import Table, texts
-from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, Unreadable, faults
+from isomould.verify.rules import Measured, NotApplicable, Rule, Unreadable, faults
 
 KINDS = ("nodes", "members", "panels")
 ARRANGEMENT = "general-arrangement"
 _ELSEWHERE = re.compile(r"outline|files?|\w+_file|max_deviation_\w+")
 """Columns that sheets do not print, or not as one text."""
-_DIMENSIONS = frozenset(
-    """drum_diameter_mm drum_height_mm system_length_mm top_length_mm bottom_length_mm cut_length_mm set_back_start_mm
-    set_back_end_mm end_angle_start_deg end_angle_end_deg side_a_mm side_b_mm side_c_mm side_d_mm height_mm""".split()  # noqa: SIM905
+_DIMENSIONS = re.compile(
+    r"drum_(diameter|height)_mm|(system|top|bottom|cut)_length_mm|set_back_(start|end)_mm|end_angle_(start|end)_deg"
+    r"|side_[a-d]_mm|height_mm|diagonal_[12]_mm|angle_[1-4]_deg"
 )
 """Columns that sheets print twice: listed, and as a dimension in a view."""
 _UNLABELLED = re.compile(r"mark|(azimuth|elevation)_\d+_deg|(family|section)_\d+")
 """Columns that head the list, or stand in a table of their own."""
 _UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m2": "m²", "cm3": "cm³"}
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
-_DECIMALS = 3
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
 def sheets_of_marks(delivery: Delivery) -> Measured:
     """Every class has the sheet that the schedule names, with its mark in the bookmark and on the page."""
-    books, problems = _books(delivery), list[str]()
+    books, problems = books_of(delivery), list[str]()
     for kind in KINDS:
         table = delivery.table(kind)
         for number, (mark, named) in enumerate(zip(texts(table, "mark"), _named(table), strict=True)):
@@ -56,16 +52,16 @@ def _sheet_faults(book: Book, number: int, mark: str, named: str) -> list[str]:
 
 def printed(delivery: Delivery) -> Measured:
     """Every value of a class in the schedules stands on its sheet exactly as printed there."""
-    rows = [(sheet, row) for kind in KINDS for sheet, row in _rows(delivery, kind)]
+    rows = [(sheet, row) for kind in KINDS for sheet, row in class_sheets(delivery, kind)]
     problems = [fault for sheet, row in rows for fault in _missing(sheet, row)]
     return faults(sum(len(row) for _, row in rows), problems)
 
 
-def _rows(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[str, str]]]:
+def class_sheets(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[str, str]]]:
     """Pair every sheet with what the schedule says of its class: column and text, blanks left out."""
     table = delivery.table(kind)
     columns = [name for name in table.columns if not _ELSEWHERE.fullmatch(name)]
-    sheets = {sheet.name: sheet for sheet in _books(delivery)[kind].sheets}
+    sheets = {sheet.name: sheet for sheet in books_of(delivery)[kind].sheets}
     for number, mark in enumerate(texts(table, "mark")):
         if mark not in sheets:
             message = f"drawings/{kind}.pdf has no sheet of {mark}"
@@ -77,9 +73,10 @@ def _rows(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[str, str]
 def _missing(sheet: Sheet, row: dict[str, str]) -> list[str]:
     """Name the values that a sheet does not list behind their names, or does not print as often as it should."""
     listed = set(zip(sheet.texts, sheet.texts[1:], strict=False))
-    shown = Counter(word for text in sheet.texts for word in {text, *_NUMBER.findall(text)})
-    drawn = () if "Corner" in sheet.texts else _DIMENSIONS  # panels with an outline of their own show its sides
-    wanted = Counter(row.values()) + Counter(text for name, text in row.items() if name in drawn)
+    shown = Counter(word for text in sheet.texts for word in {text, *NUMBER.findall(text)})
+    own = "Corner" in sheet.texts  # panels with an outline of their own show its sides
+    twice = [text for name, text in row.items() if _DIMENSIONS.fullmatch(name) and not own]
+    wanted = Counter(row.values()) + Counter(twice)
     absent = [name for name, text in row.items() if not (_UNLABELLED.fullmatch(name) or (_label(name), text) in listed)]
     absent += [name for name, text in row.items() if shown[text] < wanted[text] and name not in absent]
     return [f"{sheet.name}: {name} {row[name]} is not on its sheet" for name in absent]
@@ -96,76 +93,9 @@ def _label(column: str) -> str:
     return f"{words} ({_UNITS[unit]})" if unit in _UNITS else words
 
 
-def explained(delivery: Delivery) -> Measured:
-    """Every number with decimals on a sheet is scheduled, asked for, or measured in the part's own file.
-
-    Parts without a file of their own, such as hollow sections, which are cut from NC1, are left out.
-    """
-    problems, count = list[str](), 0
-    for kind, drawings in (("members", delivery.members), ("panels", delivery.panels)):
-        asked = _numbers([*_asked(delivery), *_on_all_sheets(delivery, kind)])
-        for sheet, row in _rows(delivery, kind):
-            shown = {number for number in _numbers(sheet.texts) if "." in number and sheet.name in drawings}
-            known = asked | _numbers([*row.values(), _outline_text(delivery, kind, sheet.name)])
-            strange = shown - known and shown - known - set(_measured(drawings[sheet.name]))
-            problems += [f"{sheet.name}: {text} is in no schedule" for text in sorted(strange)]
-            count += len(shown)
-    return faults(count, problems)
-
-
-def _numbers(found: Iterable[str]) -> set[str]:
-    return {number for text in found for number in _NUMBER.findall(text)}
-
-
-def _asked(delivery: Delivery) -> list[str]:
-    """Print what the project asked for of its parts."""
-    raw = delivery.design.raw
-    values = [value for part in ("member", "panel", "node") for value in raw[part].values()]
-    return [_text(value) if isinstance(value, float | int) else str(value) for value in values]
-
-
-def _on_all_sheets(delivery: Delivery, kind: str) -> set[str]:
-    """Give the texts of the title block and of notes: those that all sheets of a book share, if it has several."""
-    books = _books(delivery)
-    own = [set(sheet.texts) for sheet in books[kind].sheets]
-    every = [set(sheet.texts) for name in KINDS for sheet in books[name].sheets]
-    return set.intersection(*every) | (set.intersection(*own) if len(own) > 1 else set())
-
-
-def _outline_text(delivery: Delivery, kind: str, mark: str) -> str:
-    """Give the corners of a trimmed panel as the schedule prints them."""
-    table = delivery.table(kind)
-    return texts(table, "outline")[texts(table, "mark").index(mark)] if "outline" in table.columns else ""
-
-
-def _measured(drawing: Drawing) -> list[str]:
-    """Print what a part is measured by: coordinates, distances along both axes and between points, angles, holes."""
-    outline = one_outline(drawing).points
-    slots = [hole.points for hole in outlines_on(drawing, "CUT_INNER")]
-    drilled = [entity for entity in drawing.entities if entity.layer == "DRILL"]
-    middles = [(slot.min(axis=0) + slot.max(axis=0)) / 2 for slot in slots]
-    middles += [np.array(circle.points[0][:2]) for circle in drilled]
-    points = np.vstack([outline, *middles])
-    between = points[:, None] - points[None]
-    sizes = [size for slot in slots for size in (*np.ptp(slot, axis=0), abs(np.diff(np.ptp(slot, axis=0)))[0])]
-    lengths = [points, between, np.hypot(between[..., 0], between[..., 1]), [2 * d.radius for d in drilled], sizes]
-    return [_text(value) for values in (*lengths, _angles(outline)) for value in np.ravel(values)]
-
-
-def _angles(points: Floats) -> Floats:
-    ahead, behind = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
-    cosine = (ahead * behind).sum(axis=1) / np.linalg.norm(ahead, axis=1) / np.linalg.norm(behind, axis=1)
-    return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
-
-def _text(value: float) -> str:
-    """Print a number as the schedules do: three decimals, no trailing zeros; snapped first, as they are (E5)."""
-    return f"{round(round(float(value), 6), _DECIMALS) + 0.0:.{_DECIMALS}f}".rstrip("0").rstrip(".")
-
-
 def located(delivery: Delivery) -> Measured:
     """The general arrangement names every location with its mark."""
-    words = {text for sheet in _books(delivery)[ARRANGEMENT].sheets for text in sheet.texts}
+    words = {text for sheet in books_of(delivery)[ARRANGEMENT].sheets for text in sheet.texts}
     problems, count = list[str](), 0
     for part in ("member", "panel"):
         table = delivery.table(f"{part}_instances")
@@ -180,7 +110,7 @@ def located(delivery: Delivery) -> Measured:
 def twins(delivery: Delivery) -> Measured:
     """PDF and DXF of a book say the same: all texts, as often."""
     problems, count = list[str](), 0
-    for name, book in _books(delivery).items():
+    for name, book in books_of(delivery).items():
         pdf = Counter(text for sheet in book.sheets for text in sheet.texts)
         dxf = Counter(delivery.sheet_texts[name])
         differing = sorted(((pdf - dxf) + (dxf - pdf)).keys())
@@ -189,7 +119,8 @@ def twins(delivery: Delivery) -> Measured:
     return faults(count, problems)
 
 
-def _books(delivery: Delivery) -> dict[str, Book]:
+def books_of(delivery: Delivery) -> dict[str, Book]:
+    """Give the books that a delivery with drawings has."""
     if not delivery.design.raw.get("drawings", False):
         raise NotApplicable("the project asks for no drawings")
     missing = sorted({*KINDS, ARRANGEMENT} - delivery.books.keys())
@@ -202,7 +133,6 @@ def _books(delivery: Delivery) -> dict[str, Book]:
 RULES = (
     Rule("V45", "every class has its sheet", 0, "faults", sheets_of_marks),
     Rule("V45b", "drawings print what the schedules print", 0, "faults", printed),
-    Rule("V45c", "numbers on drawings are scheduled or measured in the part files", 0, "faults", explained),
     Rule("V45d", "the general arrangement names every location", 0, "faults", located),
     Rule("V43f", "PDF and DXF of the drawings say the same", 0, "faults", twins),
 )
