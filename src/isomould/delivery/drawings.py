@@ -6,6 +6,7 @@ from pathlib import Path
 
 from isomould.delivery.goods import Delivery
 from isomould.documents.shop.arrangement import arrangement_pages
+from isomould.documents.shop.cutting_plan import cutting_plan
 from isomould.documents.shop.font import drawable
 from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.node_sheet import NodeDrawing, node_sheet
@@ -27,6 +28,7 @@ from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.kit import Kit
 from isomould.parts.sections import view_solid
 from isomould.parts.settings import PanelSettings
+from isomould.project.schema import Project
 from isomould.templates import template_folder
 from isomould.workers import Spread
 from isomould.writers.dxf_pages import write_pages
@@ -52,6 +54,19 @@ def write_drawings(folder: Path, delivery: Delivery, spread: Spread) -> None:
         spread(_write_book, [_BookFiles(folder, book, heading(project.project)) for book in books])
 
 
+def write_cutting_plan(path: Path, delivery: Delivery) -> None:
+    """Write the cutting plan of the sheets beside them, where drawings are asked for."""
+    project, cutting = delivery.design.project, delivery.cutting
+    if project.deliver.drawings:
+        plan = cutting_plan(_stationery(project), cutting.sheets, cutting.stock)
+        write_pdf(path, plan, heading(project.project))
+
+
+def _stationery(project: Project) -> Stationery:
+    block = read_title_block((template_folder() / "sheets" / "title-block.toml").read_text(encoding="utf-8"))
+    return Stationery(block, project.project, None if project.deliver.paper == "auto" else project.deliver.paper)
+
+
 def _write_book(files: _BookFiles) -> None:
     write_pdf(files.folder / f"{files.book.name}.pdf", files.book, files.subject)
     write_pages(files.folder / f"{files.book.name}.dxf", files.book)
@@ -60,9 +75,7 @@ def _write_book(files: _BookFiles) -> None:
 def make_books(delivery: Delivery) -> tuple[Book, ...]:
     """Draw all books of a delivery from its parts and its schedules."""
     project, named = delivery.design.project, {table.name: table for table in delivery.schedules}
-    block = read_title_block((template_folder() / "sheets" / "title-block.toml").read_text(encoding="utf-8"))
-    paper = None if project.deliver.paper == "auto" else project.deliver.paper
-    return tuple(make(delivery, named, Stationery(block, project.project, paper)) for make in _BOOKS)
+    return tuple(make(delivery, named, _stationery(project)) for make in _BOOKS)
 
 
 def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:

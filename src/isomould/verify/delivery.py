@@ -125,6 +125,11 @@ class Delivery:
         return {path.stem: book for path, book in zip(paths, self.spread(read_pdf, paths), strict=True)}
 
     @cached_property
+    def plan(self) -> Book:
+        """The cutting plan, `sheets/cutting-plan.pdf`."""
+        return read_pdf(self.folder / "sheets" / "cutting-plan.pdf")
+
+    @cached_property
     def sheet_texts(self) -> dict[str, tuple[str, ...]]:
         """The texts of the drawings' DXF files by name."""
         paths = self.files("drawings", "dxf")
