@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 
 from isomould.arrays import Floats, Ints, round_um
-from isomould.documents.schedules import Placed
+from isomould.documents.schedules import OnBar, Placed
 from isomould.errors import Note, Refused
 from isomould.nesting.assembly import yield_percent
 from isomould.nesting.bars import nest_bars
@@ -16,7 +16,9 @@ from isomould.nesting.layout import BarLayout, Layout, Member, Part, Unplaced
 from isomould.nesting.nest import nest_blanks, nest_sheets
 from isomould.nesting.search import Search
 from isomould.nesting.settings import StockSettings
+from isomould.parts.catalogue import PlateSection
 from isomould.parts.kit import Kit
+from isomould.parts.members import MemberShape
 from isomould.workers import Spread
 
 _NO_WASTE, _MUCH_WASTE = 1e-6, 60.0
@@ -47,10 +49,10 @@ class Cutting:
         }
 
     @property
-    def positions(self) -> dict[str, tuple[str, float]]:
-        """Bar and distance from its left end (mm) of every member location."""
+    def positions(self) -> dict[str, OnBar]:
+        """Bar, distance from its left end and turning of every member location."""
         bars = self.bars.bars if self.bars else ()
-        return {str(cut.location): (bar.id, cut.start) for bar in bars for cut in bar.cuts}
+        return {str(cut.location): OnBar(bar.id, cut.start, cut.turned) for bar in bars for cut in bar.cuts}
 
 
 def weigh_waste(yield_percent: float) -> tuple[Note, ...]:
@@ -146,9 +148,17 @@ def _member_parts(kit: Kit) -> tuple[Member, ...]:
     members = kit.members
     where = _where(members.locations, members.classes.of, len(members.marks))
     return tuple(
-        Member(mark, shape.section.name, shape.cut_length, len(places), places)
+        Member(mark, shape.section.name, shape.cut_length, len(places), places, _flat(shape))
         for mark, shape, places in zip(members.marks, members.shapes, where, strict=True)
     )
+
+
+def _flat(shape: MemberShape) -> tuple[tuple[float, float], ...]:
+    """Give the outline of a plate as wide as its bar, from x = 0; nothing of others, which are cut square."""
+    points = round_um(shape.outline - [shape.outline[:, 0].min(), 0.0])
+    if not isinstance(shape.section, PlateSection) or np.ptp(points[:, 1]) != shape.section.depth:
+        return ()
+    return tuple((float(x), float(y)) for x, y in points)
 
 
 def _panel_work(kit: Kit, stock: StockSettings, task: Search) -> Callable[[], Layout]:

@@ -159,29 +159,41 @@ def test_a_gap_just_as_asked_passes_and_a_micrometre_less_fails():
     assert status(RULES, "V33", delivery(placed=shifted(2, [0, -0.001]))).status == "fail"
 
 
-def bar_delivery(positions=(10.0, 513.0, 1016.0), pieces=3, offcut=(5990 - 1516.0,), bar="B001"):
+PLATE = np.array([[0, 0], [480, 0], [500, 100], [20, 100.0]])
+"""A parallelogram of 500 x 100 mm: turned end for end it is the same, upside down it leans the other way."""
+
+
+def bar_delivery(
+    positions=(10.0, 493.06, 976.12),
+    pieces=3,
+    offcut=(5990 - 1476.12,),
+    bar="B001",
+    turned=("none", "end_for_end", "none"),
+):
     tables = {
-        "members": table("members", mark=["M01"], cut_length_mm=[500]),
         "member_instances": table(
             "member_instances",
             location=["a", "b", "c", "d"],
             mark=["M01"] * 4,
             bar=["B001"] * 3 + [bar],
             position_mm=[*positions, 1519 if bar == "B001" else 10],
+            bar_turned=[*turned, "none"],
         ),
         "bars": table(
             "bars", bar=["B001", "B002"], stock=["x", "x"], pieces=[pieces, 1], offcut_mm=[*offcut, 5990 - 510.0]
         ),
     }
-    return holding(design=vault().design, tables=tables)
+    members = {"M01": Drawing("M01", 4, (), (outline(PLATE),), ())}
+    return holding(design=vault().design, tables=tables, members=members)
 
 
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
         ({"bar": "B002"}, "pass"),
-        ({"bar": "B002", "positions": (10.0, 512.9, 1016.0)}, "fail"),
-        ({"bar": "B002", "positions": (9.0, 513.0, 1016.0)}, "fail"),
+        ({"bar": "B002", "positions": (10.0, 493.0, 976.12)}, "fail"),
+        ({"bar": "B002", "positions": (9.0, 493.06, 976.12)}, "fail"),
+        ({"bar": "B002", "turned": ("none", "upside_down", "none")}, "fail"),
         ({"bar": "B002", "pieces": 4}, "fail"),
         ({"bar": "B002", "offcut": (4400.0,)}, "fail"),
         ({"bar": "B003"}, "fail"),

@@ -42,7 +42,7 @@ TABLES: dict[str, tuple[str, ...]] = {
             cut_length_mm end_angle_start_deg end_angle_end_deg set_back_start_mm set_back_end_mm mass_kg
             total_mass_kg coated_area_m2 holes files""",
         "member_instances": """location mark turned node_start node_end panel_left panel_right bar
-            position_mm deviation_mm""",
+            position_mm bar_turned deviation_mm""",
         "panels": """mark quantity side_a_mm side_b_mm side_c_mm side_d_mm diagonal_1_mm diagonal_2_mm
             height_mm angle_1_deg angle_2_deg angle_3_deg angle_4_deg outline area_m2 total_area_m2
             charged_area_m2 box_width_mm box_height_mm mass_kg total_mass_kg handed files""",

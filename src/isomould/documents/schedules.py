@@ -36,12 +36,21 @@ class Placed:
     turned_over: bool
 
 
+@dataclass(frozen=True)
+class OnBar:
+    """Where a member was nested: bar, distance of its left end from that of the bar (mm), how it is turned."""
+
+    bar: str
+    position: float
+    turned: str
+
+
 def part_tables(
     kit: Kit,
     settings: KitSettings,
     solids: tuple[Solid, ...],
     placed: dict[str, Placed],
-    bars: dict[str, tuple[str, float]],
+    bars: dict[str, OnBar],
     *,
     drawn: bool = False,
 ) -> tuple[Table, ...]:
@@ -54,7 +63,7 @@ def part_tables(
     placed
         Sheet and place of every panel location.
     bars
-        Bar and position (mm) of every member location; empty without bars in stock.
+        Bar and place of every member location; empty without bars in stock.
     drawn
         Whether there are shop drawings to name.
     """
@@ -224,10 +233,11 @@ def _members(kit: Kit, settings: KitSettings, *, drawn: bool) -> Columns:
     }
 
 
-def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, float]]) -> Columns:
+def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, OnBar]) -> Columns:
     mesh, members = kit.mesh, kit.members
     nodes, panels = np.array(kit.nodes.locations), np.array(kit.panels.locations)
     left, right = (np.where(side >= 0, panels[side], "").tolist() for side in around.edge_faces.T)
+    places = [bars.get(where) for where in members.locations]
     return {
         "location": list(members.locations),
         "mark": _marks(members.marks, members.classes.of),
@@ -236,8 +246,9 @@ def _member_instances(kit: Kit, around: Neighbours, bars: dict[str, tuple[str, f
         "node_end": nodes[mesh.edges[:, 1]].tolist(),
         "panel_left": left,
         "panel_right": right,
-        "bar": [bars[where][0] if where in bars else "" for where in members.locations],
-        "position_mm": [bars[where][1] if where in bars else None for where in members.locations],
+        "bar": [place.bar if place else "" for place in places],
+        "position_mm": [place.position if place else None for place in places],
+        "bar_turned": [place.turned if place else "" for place in places],
         "deviation_mm": members.deviation.tolist(),
     }
 

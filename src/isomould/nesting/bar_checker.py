@@ -2,11 +2,17 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import combinations
+
+import numpy as np
+import shapely
 
 from isomould.nesting.checker import TOLERANCE, Finding
-from isomould.nesting.layout import Bar, BarLayout, Member
+from isomould.nesting.layout import Bar, BarLayout, Cut, Member
 from isomould.nesting.settings import StockSettings
+
+_HALF = 1e4
+"""Half the depth of a box, mm: deeper than any bar."""
 
 PRICE_TOLERANCE = 1e-6
 """Of sums of prices."""
@@ -16,7 +22,7 @@ def check_bars(members: Sequence[Member], stock: StockSettings, layout: BarLayou
     """Prove that a layout cuts the members as asked from the bars in stock; empty if it does."""
     findings = [*_check_quantities(members, layout), *_check_stock(stock, layout), *_check_bounds(stock, layout)]
     for bar in layout.bars:
-        findings += [*_check_bar(bar, stock), *_check_lengths(bar, members)]
+        findings += [*_check_bar(bar, members, stock), *_check_lengths(bar, members)]
     return tuple(findings)
 
 
@@ -45,18 +51,37 @@ def _check_stock(stock: StockSettings, layout: BarLayout) -> Iterator[Finding]:
             yield Finding("N-BAR-05", f"bar {section} {length:g} mm", f"{count} used", f"{kinds}")
 
 
-def _check_bar(bar: Bar, stock: StockSettings) -> Iterator[Finding]:
-    """Check trims, kerfs and the sum: lengths + kerfs + trims + rest = bar."""
-    ends = [stock.bar_trim - stock.bar_kerf, *(cut.start + cut.length for cut in bar.cuts)]
-    for end, cut in zip(ends, bar.cuts, strict=False):
-        if not cut.start - end >= stock.bar_kerf - TOLERANCE:
-            yield Finding("N-BAR-06", f"bar {bar.id}, {cut.id}", f"{cut.start - end:.6f} mm", f"{stock.bar_kerf:g} mm")
-    if not bar.length - ends[-1] >= stock.bar_trim - TOLERANCE:
-        yield Finding("N-BAR-07", f"bar {bar.id}", f"ends at {ends[-1]:.6f} mm", f"{bar.length - stock.bar_trim:g} mm")
-    kerfs = sum(after.start - before.start - before.length for before, after in pairwise(bar.cuts))
-    total = sum(cut.length for cut in bar.cuts) + kerfs + 2 * stock.bar_trim + bar.rest
+def _check_bar(bar: Bar, members: Sequence[Member], stock: StockSettings) -> Iterator[Finding]:
+    """Check trims, kerfs and the sum: last end + rest + trim = bar."""
+    outlines = {member.id: member.outline for member in members}
+    shapes = [_shape(cut, outlines.get(cut.id, ())) for cut in bar.cuts]
+    for (one, a), (other, b) in combinations(zip(bar.cuts, shapes, strict=True), 2):
+        if abs(other.start - one.start) < max(one.length, other.length) + stock.bar_kerf:
+            clear = -1.0 if a.intersection(b).area > TOLERANCE * _HALF else float(a.distance(b))
+            if not clear >= stock.bar_kerf - TOLERANCE:
+                where = f"bar {bar.id}, {one.id} beside {other.id}"
+                yield Finding("N-BAR-06", where, f"{clear:.6f} mm", f"{stock.bar_kerf:g} mm")
+    start, end = min(shape.bounds[0] for shape in shapes), max(shape.bounds[2] for shape in shapes)
+    if not start >= stock.bar_trim - TOLERANCE:
+        yield Finding("N-BAR-06", f"bar {bar.id}", f"starts at {start:.6f} mm", f"{stock.bar_trim:g} mm")
+    if not bar.length - end >= stock.bar_trim - TOLERANCE:
+        yield Finding("N-BAR-07", f"bar {bar.id}", f"ends at {end:.6f} mm", f"{bar.length - stock.bar_trim:g} mm")
+    total = end + bar.rest + stock.bar_trim
     if not abs(total - bar.length) <= TOLERANCE:
         yield Finding("N-BAR-08", f"bar {bar.id}", f"{total:.6f} mm in all", f"{bar.length:g} mm")
+
+
+def _shape(cut: Cut, outline: Sequence[tuple[float, float]]) -> shapely.Polygon:
+    """Give a piece where it lies, its left end at its start; one without an outline is a box."""
+    if not outline:
+        return shapely.box(cut.start, -_HALF, cut.start + cut.length, _HALF)
+    points = np.array(outline)
+    if cut.turned in {"end_for_end", "both"}:
+        points = -points
+    if cut.turned in {"upside_down", "both"}:
+        points = points * [1.0, -1.0]
+    low, high = points.min(axis=0), points.max(axis=0)
+    return shapely.Polygon(points - [low[0] - cut.start, (low[1] + high[1]) / 2])
 
 
 def _check_lengths(bar: Bar, members: Sequence[Member]) -> Iterator[Finding]:

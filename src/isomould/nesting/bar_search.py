@@ -116,7 +116,8 @@ def _serves(patterns: list[Pattern], need: Need) -> bool:
 
 
 def _bound(proof: Proof, need: Need, patterns: list[Pattern]) -> BarBound:
-    """Bound by length, and by patterns if there are not too many sizes."""
+    """Bound what found a place by length, and by patterns if there are not too many sizes."""
+    proof = Proof(proof.rack)
     bound = length_bound(proof, need.counts)
     small = 0 < len(need.counts) <= MOST
     return linear_bound(proof, patterns, need, bound, GRIDS[0])[0] if small else bound

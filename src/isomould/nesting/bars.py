@@ -1,7 +1,8 @@
 """Members on stock bars: what the search for bars gets from sections and members, and the layout that it makes.
 
 The kerf needs no counting of cuts: every piece is as long as itself and one kerf, and the bar's room one
-kerf longer (failure mode F3). Lengths are whole micrometres; pieces round up, bars down.
+kerf longer (failure mode F3). Lengths are whole micrometres; pieces round up, bars down. Pieces with slanted ends
+are as long as along the middle of the bar, and every bar keeps room for the largest run of an end (`bar_ends`).
 """
 
 from collections import deque
@@ -11,10 +12,13 @@ from math import gcd
 
 import numpy as np
 
+from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
+from isomould.nesting.bar_bound import BarBound, Proof
 from isomould.nesting.bar_checker import check_bars
+from isomould.nesting.bar_ends import Blank, blank, lay, square, surely_lost
 from isomould.nesting.bar_rack import ENDLESS, BarRack, Need
-from isomould.nesting.bar_search import BarBound, find_bars
+from isomould.nesting.bar_search import find_bars
 from isomould.nesting.layout import Bar, BarLayout, Cut, Id, Member, Unplaced
 from isomould.nesting.settings import BarStock, StockSettings
 from isomould.nesting.shapes import UM, round_away
@@ -28,16 +32,27 @@ class _Piece:
     id: Id
     location: str | None
     length: float
-    size: int
+    blank: Blank
 
 
 @dataclass(frozen=True)
 class _Kind:
-    """A stock bar: `room` in micrometres with one kerf added, `cost` in millionths of price or else of length."""
+    """A stock bar: `room` in micrometres between its trims, `cost` in millionths of price or else of length."""
 
     bar: BarStock
     room: int
     cost: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What the search gets: sizes (n,) and pieces by size, a rack and a need; `unit` of its costs in millionths."""
+
+    queues: dict[int, deque[_Piece]]
+    rack: BarRack
+    need: Need
+    proof: Proof
+    unit: int
 
 
 _Plan = tuple[BarStock, list[_Piece]]
@@ -93,24 +108,45 @@ def _nest_section(section: str, members: Sequence[Member], stock: StockSettings)
     kinds = _kinds(section, stock)
     pieces = [piece for member in members if member.section == section for piece in _pieces(member, stock)]
     _refuse_long(pieces, kinds, section, stock)
-    rack, need, unit = _rack(pieces, kinds)
-    patterns, bound = find_bars(rack, need)
-    queues = {size: deque(piece for piece in pieces if piece.size == size) for size in rack.sizes.tolist()}
+    task = _task(pieces, kinds, stock)
+    patterns, bound = find_bars(task.rack, task.need, task.proof)
     plans = [
-        (kinds[p.kind].bar, [queues[size].popleft() for size in np.repeat(rack.sizes, p.takes).tolist()])
+        (kinds[p.kind].bar, [task.queues[size].popleft() for size in np.repeat(task.rack.sizes, p.takes).tolist()])
         for p in patterns
     ]
-    return _Nested(plans, [piece for queue in queues.values() for piece in queue], bound, unit)
+    return _Nested(plans, [piece for queue in task.queues.values() for piece in queue], bound, task.unit)
 
 
-def _rack(pieces: Sequence[_Piece], kinds: Sequence[_Kind]) -> tuple[BarRack, Need, int]:
-    """Give the search what it sees, and the common unit of its costs in millionths."""
-    sizes, counts = np.unique([piece.size for piece in pieces], return_counts=True)
+def _task(pieces: Sequence[_Piece], kinds: Sequence[_Kind], stock: StockSettings) -> _Task:
+    """Give the search what it sees: lengths along the middle of the bars, and room for the worst order of ends.
+
+    The proof sees what no order can save: the least kerf, and the runs that every bar loses.
+    """
+    runs = [abs(run) for piece in pieces for run in piece.blank.runs]
+    cut = round_away(stock.bar_kerf * UM * max((piece.blank.stretch for piece in pieces), default=1.0))
+    rooms = np.array([kind.room for kind in kinds], dtype=np.int64)
+    reserve = max(runs, default=0)
+    queues: dict[int, deque[_Piece]] = {}
+    for piece in sorted(pieces, key=lambda piece: -piece.blank.mean):
+        queues.setdefault(min(piece.blank.mean + cut, int(rooms[0]) + cut - reserve), deque()).append(piece)
     unit = gcd(*(kind.cost for kind in kinds))
     costs = np.array([kind.cost // unit for kind in kinds], dtype=np.float64)
     limits = [ENDLESS if kind.bar.quantity is None else kind.bar.quantity for kind in kinds]
-    rack = BarRack(sizes[::-1].astype(np.int64), np.array([kind.room for kind in kinds], dtype=np.int64), costs)
-    return rack, Need(counts[::-1].astype(np.int64), np.array(limits, dtype=np.int64)), unit
+    need = Need(np.array([len(queue) for queue in queues.values()]), np.array(limits, dtype=np.int64))
+    rack = BarRack(np.array(list(queues), dtype=np.int64), np.maximum(rooms + cut - reserve, 0), costs)
+    return _Task(queues, rack, need, _proof(queues, rooms, costs, stock), unit)
+
+
+def _proof(queues: dict[int, deque[_Piece]], rooms: Ints, costs: Floats, stock: StockSettings) -> Proof:
+    kerf = int(stock.bar_kerf * UM + 1e-6)
+    blanks = [piece.blank for queue in queues.values() for piece in queue]
+    straight = min((this.true for this in blanks), default=1.0)
+    always = int(straight * min((abs(run) for this in blanks for run in this.runs), default=0))
+    sizes = [min(piece.blank.least for piece in queue) + kerf for queue in queues.values()]
+    longest = int(rooms.max(initial=0)) + kerf - always
+    alike = [size for size, queue in zip(sizes, queues.values(), strict=True) for _ in queue]
+    lost = surely_lost(blanks, alike, longest, always) if blanks else 0
+    return Proof(BarRack(np.array(sizes, dtype=np.int64), rooms + kerf - always, costs), lost)
 
 
 def _kinds(section: str, stock: StockSettings) -> list[_Kind]:
@@ -121,19 +157,20 @@ def _kinds(section: str, stock: StockSettings) -> list[_Kind]:
 
 
 def _room(bar: BarStock, stock: StockSettings) -> int:
-    return int((bar.length - 2 * stock.bar_trim + stock.bar_kerf) * UM + 1e-6)
+    return int((bar.length - 2 * stock.bar_trim) * UM + 1e-6)
 
 
 def _pieces(member: Member, stock: StockSettings) -> Iterator[_Piece]:
-    size = round_away((member.length + stock.bar_kerf) * UM)
+    slanted = member.outline and stock.bar_ends == "head-to-tail"
+    this = blank(member.outline) if slanted else square(round_away(member.length * UM))
     for location in member.locations or (None,) * member.quantity:
-        yield _Piece(member.id, location, member.length, size)
+        yield _Piece(member.id, location, member.length, this)
 
 
 def _refuse_long(pieces: Iterable[_Piece], kinds: Sequence[_Kind], section: str, stock: StockSettings) -> None:
-    longest = max((kind.room for kind in kinds), default=0)
+    longest = max((kind.room for kind in kinds), default=-1)
     for piece in pieces:
-        if piece.size > longest:
+        if piece.blank.length > longest:
             found = f"needs a bar of {piece.length + 2 * stock.bar_trim:g} mm with the trim"
             bars = " or ".join(f"{kind.bar.length:g} mm" for kind in kinds) or "none"
             way_out = "Add a longer bar of this section or divide the member."
@@ -143,15 +180,15 @@ def _refuse_long(pieces: Iterable[_Piece], kinds: Sequence[_Kind], section: str,
 def _bar(name: str, plan: _Plan, stock: StockSettings) -> Bar:
     bar, pieces = plan
     cuts = tuple(_cuts(pieces, stock))
-    end = cuts[-1].start + cuts[-1].length
+    end = max(cut.start + cut.length for cut in cuts)
     return Bar(name, bar.section, bar.length, cuts, bar.length - stock.bar_trim - end)
 
 
-def _cuts(pieces: Iterable[_Piece], stock: StockSettings) -> Iterator[Cut]:
-    start = stock.bar_trim
-    for piece in pieces:
-        yield Cut(piece.id, piece.location, start, piece.length)
-        start += piece.length + stock.bar_kerf
+def _cuts(pieces: Sequence[_Piece], stock: StockSettings) -> Iterator[Cut]:
+    for laid in lay([piece.blank for piece in pieces], round_away(stock.bar_kerf * UM)):
+        piece = pieces[laid.piece]
+        start = stock.bar_trim + laid.start / UM
+        yield Cut(piece.id, piece.location, start, piece.length, laid.turned)
 
 
 def _unplaced(piece: _Piece) -> Unplaced:

@@ -10,6 +10,9 @@ Id = int | str
 
 Status = Literal["complete", "interrupted", "incomplete"]
 BoundKind = Literal["area", "lp"]
+Turned = Literal["none", "end_for_end", "upside_down", "both"]
+"""How a piece lies on its bar compared with its member: turned by 180 degrees in its plane, mirrored top to bottom."""
+
 CutTree = dict[str, Any]
 """Guillotine cuts of a piece: `{"lines": [[[x, y], [x, y]], ...], "pieces": [tree, ...]}`, in cutting order.
 
@@ -130,23 +133,29 @@ class Layout:
 
 @dataclass(frozen=True)
 class Member:
-    """One class of members of one section; `length` in mm, `locations` one per piece or none."""
+    """One class of members of one section; `length` in mm, `locations` one per piece or none.
+
+    A part of a flat bar has an `outline`, x along the bar from 0 to its length and y over the whole width of the bar:
+    its ends may be nested head to tail, and it may be turned. All others are cut square.
+    """
 
     id: Id
     section: str
     length: float
     quantity: int = 1
     locations: tuple[str, ...] = ()
+    outline: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
 class Cut:
-    """One piece of a bar; `start` is its distance in mm from the bar's left end."""
+    """One piece of a bar; `start` is the distance of its left end in mm from the bar's left end."""
 
     id: Id
     location: str | None
     start: float
     length: float
+    turned: Turned = "none"
 
 
 @dataclass(frozen=True)

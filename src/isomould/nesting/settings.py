@@ -10,6 +10,9 @@ from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, Po
 Turning = Literal["none", "half", "quarter"]
 """Rotations that a part may take: 0; 0 and 180; every multiple of 90 degrees."""
 
+BarEnds = Literal["head-to-tail", "square"]
+"""Slanted ends of flat bars beside each other, or every piece as long as the box around it."""
+
 ROTATIONS_DEG: dict[Turning, tuple[int, ...]] = {"none": (0,), "half": (0, 180), "quarter": (0, 90, 180, 270)}
 
 StockName = Name
@@ -55,6 +58,7 @@ class StockSettings(Settings):
     max_blank_length: PositiveLength = 6000.0
     bar_kerf: NonNegativeLength = 3.0
     bar_trim: NonNegativeLength = 0.0
+    bar_ends: BarEnds = "head-to-tail"
 
     @property
     def scored(self) -> bool:

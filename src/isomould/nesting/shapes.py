@@ -89,7 +89,7 @@ def rotate(points: Ints, rotation_deg: int) -> Ints:
 def _shape(points: Ints, rotation_deg: int, *, turned_over: bool = False) -> Shape:
     points = read_only(points - points.min(axis=0))
     hull = _hull(points)
-    (left, start), (right, end) = _leg(hull, -1), _leg(hull, 1)
+    (left, start), (right, end) = leg(hull, -1), leg(hull, 1)
     return Shape(points, hull, rotation_deg, left, right, end - start, turned_over)
 
 
@@ -100,7 +100,7 @@ def _hull(points: Ints) -> Ints:
     return read_only((ring if turns_left else ring[::-1]).astype(np.int64))
 
 
-def _leg(hull: Ints, side: int) -> tuple[float, float]:
+def leg(hull: Ints, side: int) -> tuple[float, float]:
     """Give slope dx/dy and x at half height of the closest line past the left (-1) or right (1) side."""
     edges = np.roll(hull, -1, axis=0) - hull
     keep = edges[:, 1] * side > 0

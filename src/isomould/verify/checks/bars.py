@@ -1,18 +1,24 @@
 """V34c: members on stock bars, one kerf apart, every one once, and the offcuts add up."""
 
 from collections import defaultdict
+from itertools import combinations
 
 import numpy as np
+import shapely
 
 from isomould.verify.delivery import Delivery
-from isomould.verify.read.tables import Table, numbers, pairs, read_table, texts
-from isomould.verify.rules import Measured, NotApplicable, Rule, faults, worst_of
+from isomould.verify.read.dxf import one_outline
+from isomould.verify.read.tables import Table, numbers, read_table, texts
+from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, faults, worst_of
 
 ROUNDING = 2e-3
 """Positions, lengths and offcuts are printed to 0.001 mm."""
 
-Piece = tuple[float, float]
-"""Position and length, mm."""
+LEAVE = 1e-6
+"""Area mm² by which pieces overlap through rounding."""
+
+Piece = shapely.Polygon
+"""The outline of a piece where it lies on its bar."""
 
 
 def bars(delivery: Delivery) -> Measured:
@@ -40,25 +46,46 @@ def _bars(delivery: Delivery) -> Table:
 
 
 def _pieces(delivery: Delivery) -> dict[str, list[Piece]]:
-    """Give the pieces of every bar from left to right."""
-    instances, members = delivery.table("member_instances"), delivery.table("members")
-    length = {mark: float(text) for mark, text in pairs(members, "mark", "cut_length_mm").items()}
+    """Give the pieces of every bar from left to right, from the part files of the members."""
+    instances = delivery.table("member_instances")
+    columns = ("bar", "mark", "bar_turned")
+    places = zip(*(texts(instances, name) for name in columns), numbers(instances, "position_mm"), strict=True)
     found: defaultdict[str, list[Piece]] = defaultdict(list)
-    places = zip(texts(instances, "bar"), numbers(instances, "position_mm"), texts(instances, "mark"), strict=True)
-    for bar, position, mark in places:
-        found[bar].append((float(position), length[mark]))
-    return {bar: sorted(pieces) for bar, pieces in found.items()}
+    for bar, mark, turned, position in places:
+        if bar:
+            found[bar].append(_placed(one_outline(delivery.members[mark]).points, turned, float(position)))
+    return {bar: sorted(pieces, key=_left) for bar, pieces in found.items()}
+
+
+def _placed(points: Floats, turned: str, position: float) -> Piece:
+    """Turn a part and set its left end where it lies on its bar, its middle on that of the bar."""
+    facing = points * np.array(_FACING[turned])
+    low, high = facing.min(axis=0), facing.max(axis=0)
+    return shapely.Polygon(facing - [low[0] - position, (low[1] + high[1]) / 2])
+
+
+_FACING = {"none": (1, 1), "end_for_end": (-1, -1), "upside_down": (1, -1), "both": (-1, 1)}
+
+
+def _left(piece: Piece) -> float:
+    return float(piece.bounds[0])
+
+
+def _right(pieces: list[Piece]) -> float:
+    return max((float(piece.bounds[2]) for piece in pieces), default=0.0)
 
 
 def _shortfall(pieces: list[Piece], kerf: float, trim: float) -> float:
-    ends = [trim - kerf, *(position + length for position, length in pieces)]
-    return max((end + kerf - position for end, (position, _) in zip(ends, pieces, strict=False)), default=0.0)
+    """Give how far any two pieces fall short of the kerf, or the first of the trim."""
+    pairs = ((a, b) for a, b in combinations(pieces, 2) if _left(b) - a.bounds[2] < kerf)
+    short = [kerf - float(a.distance(b)) if a.intersection(b).area <= LEAVE else np.inf for a, b in pairs]
+    return max([0.0, *(trim - _left(piece) for piece in pieces[:1]), *short])
 
 
 def _stock_spread(table: Table, pieces: dict[str, list[Piece]]) -> list[float]:
     """Give for every bar how far end of the last piece + offcut is from the first bar of that stock."""
     rows = zip(texts(table, "bar"), texts(table, "stock"), numbers(table, "offcut_mm"), strict=True)
-    total = {bar: (stock, sum(pieces.get(bar, [(0.0, 0.0)])[-1]) + offcut) for bar, stock, offcut in rows}
+    total = {bar: (stock, _right(pieces.get(bar, [])) + offcut) for bar, stock, offcut in rows}
     first = dict(reversed(list(total.values())))
     return [abs(length - first[stock]) for stock, length in total.values()]
 
