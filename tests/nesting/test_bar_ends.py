@@ -16,7 +16,9 @@ from isomould.nesting.layout import BarLayout, Member
 from isomould.nesting.settings import BarStock, StockSettings
 
 DEPTH = 200.0
-STOCK = StockSettings(bars=(BarStock(section="FL200*12", length=6000),), bar_kerf=3, bar_trim=10)
+STOCK = StockSettings(
+    bars=(BarStock(section="FL200*12", length=6000),), bar_kerf=3, bar_trim=10, bar_ends="head-to-tail"
+)
 
 
 def plate(length: float, left: float, right: float, tongue: float = 0.0) -> tuple[tuple[float, float], ...]:
@@ -130,6 +132,7 @@ STOCKS = st.builds(
         bars=tuple(BarStock(section="FL200*12", length=x, price=p, quantity=q) for x, p, q in kinds),
         bar_kerf=kerf,
         bar_trim=trim,
+        bar_ends="head-to-tail",
     ),
     st.lists(
         st.tuples(st.integers(3000, 9000), st.sampled_from([0, 7, 11.5, 12]), st.sampled_from([None, 0, 1, 3])),

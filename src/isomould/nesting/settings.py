@@ -58,7 +58,7 @@ class StockSettings(Settings):
     max_blank_length: PositiveLength = 6000.0
     bar_kerf: NonNegativeLength = 3.0
     bar_trim: NonNegativeLength = 0.0
-    bar_ends: BarEnds = "head-to-tail"
+    bar_ends: BarEnds = "square"
 
     @property
     def scored(self) -> bool:
