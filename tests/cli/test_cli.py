@@ -1,5 +1,7 @@
-"""The command line as users meet it: a process, its exit code, its words."""
+"""The command line as users meet it: its exit code, its words, and what it leaves on the disk."""
 
+import contextlib
+import io
 import json
 import signal
 import subprocess
@@ -11,6 +13,7 @@ import pytest
 from pypdf import PdfReader
 
 import isomould
+from isomould.cli import main
 from museum import SMALL, changed
 
 TRAPEZOIDS = {
@@ -29,9 +32,24 @@ def many(count):
     return {**TRAPEZOIDS, "parts": [{**part, "ol": 20, "orr": part["a"] - part["b"] - 20} for part in parts]}
 
 
-def run(*arguments, folder):
+def process(*arguments, folder):
     command = [sys.executable, "-m", "isomould", *map(str, arguments)]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240, check=False)
+
+
+def run(*arguments, folder):
+    """The same without a process of its own, which takes seconds to start; handlers of signals are put back."""
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            main([*map(str, arguments)])
+        except SystemExit as end:
+            code = end.code
+        finally:
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
+    return subprocess.CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
 
 
 def test_new_check_and_list(tmp_path):
@@ -69,7 +87,7 @@ def test_new_refuses_names_that_some_system_cannot_hold(tmp_path, monkeypatch, n
 
 def test_build_and_verify(tmp_path, project_file):
     project_file(SMALL)
-    built = run("build", "project.toml", "--effort", "quick", folder=tmp_path)
+    built = process("build", "project.toml", "--effort", "quick", folder=tmp_path)
     assert built.returncode == 0, built.stderr
     assert (tmp_path / "outputs" / "small" / "certificate.json").exists()
     assert "checks passed" in built.stdout
@@ -78,7 +96,7 @@ def test_build_and_verify(tmp_path, project_file):
     assert again.returncode == 2
     assert "--replace" in again.stderr
     (tmp_path / "outputs" / "small" / "panels" / "P01.dxf").unlink()
-    broken = run("verify", "outputs/small", folder=tmp_path)
+    broken = process("verify", "outputs/small", folder=tmp_path)
     assert broken.returncode == 1
     assert "P01" in broken.stdout
 
