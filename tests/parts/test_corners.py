@@ -85,6 +85,7 @@ def test_new_corners_are_rounded_to_the_inside():
 def test_chamfered_panels_are_nested_uncut_and_delivered_cut(tmp_path):
     caps = {"retention": "lipped-cap", "cap": {"thickness": 30}}
     data = museum.changed(museum.SMALL, stock={"turn_over": True}, panels={"flippable": True}, nodes=caps)
+    data["deliver"] = {"drawings": False}
     project = museum.write_project(tmp_path / "p.toml", data)
     built = isomould.build(project, tmp_path / "out", run=isomould.Run(effort="quick", jobs=1))
     panels = built.design.kit.panels

@@ -34,6 +34,7 @@ def folders(tmp_path_factory):
     first = copy.deepcopy(SMALL)
     first["rail"]["divide"] = {"angle_deg": 18}
     first["stock"].pop("bars")
+    first["deliver"] = {"drawings": False}
     second = copy.deepcopy(first)
     second["rail"]["curve"] = {"kind": "parabola", "span": "8.4 m", "rise": "2.52 m"}
     a = build(folder, "a", first)
