@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.delivery.nested import check_targets, write_plan, write_sheets
+from isomould.delivery.nested import Targets, check_targets, publish_nest
 from isomould.delivery.pictures import View, design_picture
 from isomould.design import Design, make_design, requests_of
 from isomould.documents.overview import Fact, kit_facts
@@ -18,7 +18,6 @@ from isomould.family import kit_table, make_designs
 from isomould.form.survey import Division, survey
 from isomould.intake.read import Asked, read_part_list
 from isomould.intake.stock import read_stock
-from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
@@ -31,7 +30,7 @@ from isomould.repetition import is_priced, make_pricing, price_families
 from isomould.study import Study, make_study
 from isomould.templates import copy_template
 from isomould.units import LengthUnit
-from isomould.verify import Certificate, verify_folder
+from isomould.verify import Certificate, verify_folder, verify_nest
 from isomould.workers import workers
 from isomould.writers.csv import csv_text
 from isomould.writers.disk import replace_file
@@ -143,10 +142,26 @@ def schedule(
     return schedule_folder(loaded, Path(out) if out is not None else Path("outputs") / slug, run or Run())
 
 
-def verify(folder: str | Path, jobs: int | None = None) -> Certificate:
-    """Prove a delivered folder again, from its files alone."""
+def verify(
+    folder: str | Path, jobs: int | None = None, sheets: Path | None = None, plan: Path | None = None
+) -> Certificate:
+    """Prove a delivered folder again, or what `nest` wrote, from the files alone.
+
+    Parameters
+    ----------
+    folder
+        A delivered folder, or a layout file.
+    jobs
+        Processes, None for one per core.
+    sheets, plan
+        Of a layout file: the folder of its sheets, its cutting plan.
+    """
+    path = Path(folder)
+    if path.is_dir() and (sheets or plan):
+        way_out = "Give the layout file instead of the folder."
+        raise Refused("E-VERIFY", "--sheets, --plan", f"beside the folder {path}", "a layout file of nest", way_out)
     with workers(jobs) as spread:
-        return verify_folder(Path(folder), spread=spread)
+        return verify_nest(path, sheets, plan, spread) if path.is_file() else verify_folder(path, spread=spread)
 
 
 @dataclass(frozen=True)
@@ -192,7 +207,7 @@ def nest(
     instance
         A part list (JSON, CSV), a folder of drawings, or a delivered folder, whose panels are nested.
     out
-        The layout file; it is written whole or not at all, and so is each of the others.
+        The layout file. It and the others are proved before they are published, each whole or not at all.
     effort
         Iterations of the search.
     stop
@@ -210,9 +225,12 @@ def nest(
     ------
     Refused
         Naming file and field, if part list, stock or targets are not as they should be; nothing is written.
+    CertificateFailed
+        If what was written does not show the layout; nothing is published.
     """
     stop, files = stop or Stop(), files or NestFiles()
-    check_targets(files.sheets, files.plan, overwrite=files.overwrite)
+    targets = Targets(Path(out), files.sheets, files.plan, files.overwrite)
+    check_targets(targets)
     given = read_part_list(
         Path(instance), Asked(read_stock(files.stock) if files.stock else {}, files.units, files.layer)
     )
@@ -220,11 +238,8 @@ def nest(
         (remark or _ignore)(note)
     layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
-    replace_file(Path(out), layout_to_json(layout).encode())
-    if files.sheets:
-        write_sheets(files.sheets, layout, given, overwrite=files.overwrite)
-    if files.plan:
-        write_plan(files.plan, layout, given)
+    with workers(jobs) as spread:
+        publish_nest(targets, layout, given, spread)
     return layout
 
 

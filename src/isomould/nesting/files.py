@@ -1,6 +1,8 @@
 """Layouts as JSON: `nesting.json` of a delivered folder, and what `isomould nest` writes."""
 
 import json
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,7 @@ from isomould.errors import Refused
 from isomould.nesting.layout import Layout, Offcut, Placement, Sheet, Unplaced
 
 SCHEMA = 1
+NOTHING_MORE: Mapping[str, Any] = MappingProxyType({})
 
 _PLAIN = (
     "bound",
@@ -26,8 +29,8 @@ _PLAIN = (
 """Fields that are the same in the file."""
 
 
-def layout_to_json(layout: Layout) -> str:
-    """Write a layout; numbers as short as they read back exactly."""
+def layout_to_json(layout: Layout, more: Mapping[str, Any] = NOTHING_MORE) -> str:
+    """Write a layout, and more fields behind its own; numbers as short as they read back exactly."""
     table = {
         "schema": SCHEMA,
         "status": layout.status,
@@ -47,6 +50,7 @@ def layout_to_json(layout: Layout) -> str:
         "placements": [_placement(item) for item in layout.placements],
         "unplaced": [_unplaced(item) for item in layout.unplaced],
         "cut_tree": layout.cut_trees or None,
+        **more,
     }
     return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"
 

@@ -2,5 +2,6 @@
 
 from isomould.verify.certificate import Certificate, Check
 from isomould.verify.folder import verify_folder, verify_page
+from isomould.verify.nested import verify_nest
 
-__all__ = ["Certificate", "Check", "verify_folder", "verify_page"]
+__all__ = ["Certificate", "Check", "verify_folder", "verify_nest", "verify_page"]

@@ -44,6 +44,16 @@ class Delivery:
         """The design of `model/design.json`."""
         return read_design(self.folder / "model" / "design.json")
 
+    @property
+    def nesting(self) -> Json:
+        """What was asked of the nests: gap, kerf, trim, mm."""
+        return self.design.raw["nesting"]
+
+    @property
+    def flippable(self) -> bool:
+        """Whether panels may be turned over."""
+        return bool(self.design.raw["panel"].get("flippable", False))
+
     @cached_property
     def shapes(self) -> dict[str, "Delivery"]:
         """The other shapes of the project by name: complete folders of their own."""

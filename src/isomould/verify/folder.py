@@ -1,12 +1,11 @@
 """Prove a delivered folder from its files alone."""
 
-import re
 from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 
 from isomould.errors import OutputFault
-from isomould.verify.certificate import Certificate, Check
+from isomould.verify.certificate import Certificate
 from isomould.verify.checks import (
     bars,
     bases,
@@ -34,6 +33,7 @@ from isomould.verify.checks import (
     scoring,
     setting_out,
     shapes,
+    sheet_marks,
     sheet_numbers,
     sheets,
     solids,
@@ -43,7 +43,7 @@ from isomould.verify.checks import (
     workbook,
 )
 from isomould.verify.delivery import Delivery
-from isomould.verify.rules import Measured, NotApplicable, Rule, faults, judge
+from isomould.verify.rules import Measured, NotApplicable, Rule, faults, judge, order
 from isomould.workers import Spread, one_by_one
 
 _GROUPS = (
@@ -62,6 +62,7 @@ _GROUPS = (
     fittings,
     forks,
     nesting,
+    sheet_marks,
     scoring,
     cutting_plan,
     bars,
@@ -87,12 +88,8 @@ _SCHEDULED = (panels, nodes, polygons, topology, workbook, parquet, totals, pack
 """What can be proved of schedules alone."""
 
 
-def _order(rule: Rule | Check) -> tuple[int, str]:
-    return int(re.sub(r"\D", "", rule.id)), rule.id
-
-
 def _rules(groups: Iterable[ModuleType], *more: Rule) -> tuple[Rule, ...]:
-    return tuple(sorted((*more, *(rule for group in groups for rule in group.RULES)), key=_order))
+    return tuple(sorted((*more, *(rule for group in groups for rule in group.RULES)), key=order))
 
 
 def _each_shape(delivery: Delivery) -> Measured:
@@ -144,4 +141,4 @@ def verify_page(folder: Path, certificate: Certificate) -> Certificate:
     """Prove the page of a candidate, which shows the certificate of all else, and add that to the certificate."""
     delivery = Delivery(folder, final=False)
     checks = (*certificate.checks, *(judge(rule, delivery) for rule in page.RULES))
-    return Certificate(tuple(sorted(checks, key=_order)))
+    return Certificate(tuple(sorted(checks, key=order)))

@@ -1,6 +1,7 @@
 """What a check is: a rule with a limit, a function that measures, and the judge who compares the two."""
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -48,6 +49,11 @@ class Rule:
     limit: float
     unit: str
     measure: "Callable[[Delivery], Measured]"
+
+
+def order(rule: Rule | Check) -> tuple[int, str]:
+    """Sort by number, then by letter."""
+    return int(re.sub(r"\D", "", rule.id)), rule.id
 
 
 def worst_of(values: ArrayLike, names: Texts, *, limit: float | None = None, none: str = "") -> Measured:

@@ -7,8 +7,10 @@ import errno
 import hashlib
 import io
 import os
+import shutil
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from isomould.errors import OutputFault
@@ -48,14 +50,35 @@ def replace_file(path: Path, data: bytes) -> None:
     OutputFault
         If the system refuses; nothing is left behind.
     """
+    with replacing(path) as partial:
+        write_bytes(partial, data)
+
+
+@contextmanager
+def replacing(path: Path) -> Generator[Path]:
+    """Give a place beside a file to write it to; on a clean exit it is renamed, else nothing is left behind."""
     partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
     try:
-        write_bytes(partial, data)
+        yield partial
         partial.replace(path)
     except OSError as error:
         raise fault(path, error) from error
     finally:
         partial.unlink(missing_ok=True)
+
+
+def put_in_place(folder: Path, target: Path, aside: Path) -> None:
+    """Rename a folder to its target; what was there steps aside, is removed, and comes back if that fails."""
+    replaced = os.path.lexists(target)
+    if replaced:
+        target.rename(aside)
+    try:
+        folder.rename(target)
+    except BaseException:
+        if replaced:
+            aside.rename(target)
+        raise
+    shutil.rmtree(aside, ignore_errors=True)
 
 
 def fault(path: Path, error: OSError) -> OutputFault:

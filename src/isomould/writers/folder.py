@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from isomould.errors import Refused
-from isomould.writers.disk import fault, sync_tree
+from isomould.writers.disk import fault, put_in_place, sync_tree
 from isomould.writers.lock import is_alive, locked
 from isomould.writers.manifest import folder_faults
 
@@ -64,7 +64,7 @@ def _written(target: Path, replace: bool) -> Generator[Path]:
         _check_complete(folder)
         sync_tree(folder)
         _check_target(target, replace)  # once more: what came there in the meantime is not ours to remove
-        _publish(folder, target)
+        put_in_place(folder, target, _beside(target, f"{_ASIDE}-{os.getpid()}"))
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -105,21 +105,6 @@ def _check_complete(folder: Path) -> None:
     if faults:
         way_out = "Nothing was published; try again."
         raise _refused(folder, "; ".join(faults[:3]), "a folder as its manifest says", way_out)
-
-
-def _publish(folder: Path, target: Path) -> None:
-    """Rename the candidate to the target; what was there steps aside and comes back if that fails."""
-    aside = _beside(target, f"{_ASIDE}-{os.getpid()}")
-    replaced = os.path.lexists(target)
-    if replaced:
-        target.rename(aside)
-    try:
-        folder.rename(target)
-    except BaseException:
-        if replaced:
-            aside.rename(target)
-        raise
-    shutil.rmtree(aside, ignore_errors=True)
 
 
 def _clear_leftovers(target: Path) -> None:

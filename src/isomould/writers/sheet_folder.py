@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from isomould.errors import Refused
-from isomould.writers.disk import fault
+from isomould.writers.disk import fault, put_in_place
 
 _SHEET = re.compile(r"S\d+\.dxf")
 
@@ -32,13 +32,12 @@ def sheet_folder(target: Path, *, replace: bool) -> Generator[Path]:
         If the system refuses; nothing is left behind.
     """
     refuse_taken(target, replace)
-    partial = target.with_name(f"{target.name}.partial-{os.getpid()}")
+    partial, aside = (target.with_name(f"{target.name}.{kind}-{os.getpid()}") for kind in ("partial", "replaced"))
     try:
         partial.mkdir(parents=True)
         yield partial
-        if target.exists():
-            shutil.rmtree(target)
-        partial.rename(target)
+        refuse_taken(target, replace)  # once more: what came there in the meantime is not ours to remove
+        put_in_place(partial, target, aside)
     except OSError as error:
         raise fault(target, error) from error
     finally:

@@ -25,7 +25,7 @@ def bars(delivery: Delivery) -> Measured:
     """How far pieces fall short of kerf or trim, and bars of one stock differ in what they add up to."""
     table, pieces = _bars(delivery), _pieces(delivery)
     names = texts(table, "bar")
-    kerf, trim = (float(delivery.design.raw["nesting"][key]) for key in ("bar_kerf_mm", "bar_trim_mm"))
+    kerf, trim = (float(delivery.nesting[key]) for key in ("bar_kerf_mm", "bar_trim_mm"))
     short = [_shortfall(pieces.get(name, []), kerf, trim) for name in names]
     counted = np.equal([len(pieces.get(name, [])) for name in names], numbers(table, "pieces"))
     strays = [float("inf") for _ in pieces.keys() - set(names)]

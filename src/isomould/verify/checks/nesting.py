@@ -73,7 +73,7 @@ def _drawn_on(delivery: Delivery, sheet: str, drawing: Drawing) -> Measured:
 
 def contours(delivery: Delivery, drawing: Drawing) -> list[Outline]:
     """Give the outlines of the parts on a cut sheet: on INFO, not CUT, where lines are scored (gap = 0)."""
-    return outlines_on(drawing, "INFO" if delivery.design.raw["nesting"]["gap_mm"] == 0 else "CUT")
+    return outlines_on(drawing, "INFO" if delivery.nesting["gap_mm"] == 0 else "CUT")
 
 
 def rigid(delivery: Delivery) -> Measured:
@@ -85,7 +85,7 @@ def rigid(delivery: Delivery) -> Measured:
 def _distortion(delivery: Delivery, placed: Placement) -> float:
     if placed.mark not in delivery.panels:
         return np.inf
-    if placed.turned_over and not delivery.design.raw["panel"].get("flippable", False):
+    if placed.turned_over and not delivery.flippable:
         return np.inf
     outline = one_outline(delivery.panels[placed.mark]).points
     expected = quarter_turned(outline, placed.rotation_deg, turned_over=placed.turned_over)
@@ -94,7 +94,7 @@ def _distortion(delivery: Delivery, placed: Placement) -> float:
 
 def gaps(delivery: Delivery) -> Measured:
     """How far the clear distance of two contours on a sheet falls short of the asked gap."""
-    gap = float(delivery.design.raw["nesting"]["gap_mm"])
+    gap = float(delivery.nesting["gap_mm"])
     found = [_shortfall(sheet, contours(delivery, drawing), gap) for sheet, drawing in delivery.sheets.items()]
     return worse(*found)
 
@@ -119,7 +119,7 @@ def margins(delivery: Delivery) -> Measured:
 
 
 def _overreach(delivery: Delivery, sheet: str, drawing: Drawing) -> float:
-    trim, size = float(delivery.design.raw["nesting"]["trim_mm"]), np.array(delivery.layout.sheets[sheet])
+    trim, size = float(delivery.nesting["trim_mm"]), np.array(delivery.layout.sheets[sheet])
     corners = np.array([[0, 0], [size[0], 0], size, [0, size[1]]])
     points = np.vstack([outline.points for outline in contours(delivery, drawing)])
     over = max(float((trim - points).max()), float((points + trim - size).max()), 0.0)
@@ -164,7 +164,7 @@ def bound(delivery: Delivery) -> Measured:
 
 def _fill(delivery: Delivery, sheet: str) -> tuple[float, float]:
     """Give the dilated area of the parts on a sheet and of the sheet without its trim, mm²."""
-    nesting = delivery.design.raw["nesting"]
+    nesting = delivery.nesting
     half, trim = nesting["gap_mm"] / 2, nesting["trim_mm"]
     width, height = (side - 2 * trim + 2 * half for side in delivery.layout.sheets[sheet])
     return sum(_dilated(placed.points, half) for placed in delivery.layout.on(sheet)), width * height
@@ -184,7 +184,7 @@ def freed(delivery: Delivery) -> Measured:
 
 def _trees(delivery: Delivery) -> dict[str, dict[str, Any]]:
     trees = delivery.layout.raw.get("cut_tree")
-    if trees is None and not delivery.design.raw["nesting"].get("guillotine", True):
+    if trees is None and not delivery.nesting.get("guillotine", True):
         message = "the sheets need not be cut edge to edge"
         raise NotApplicable(message)
     if trees is None or trees.keys() != delivery.layout.sheets.keys():
@@ -194,7 +194,7 @@ def _trees(delivery: Delivery) -> dict[str, dict[str, Any]]:
 
 
 def _sawn(delivery: Delivery, name: str, tree: dict[str, Any]) -> list[tuple[int | None, Loop, float]]:
-    nesting = delivery.design.raw["nesting"]
+    nesting = delivery.nesting
     trim, (width, height) = float(nesting["trim_mm"]), delivery.layout.sheets[name]
     right, top = width - trim, height - trim
     return list(saw(tree, [(trim, trim), (right, trim), (right, top), (trim, top)], float(nesting["kerf_mm"])))

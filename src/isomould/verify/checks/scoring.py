@@ -64,7 +64,7 @@ def _same(cut: Line, line: Line) -> bool:
 
 
 def _scored(delivery: Delivery) -> dict[str, Drawing]:
-    if delivery.design.raw["nesting"]["gap_mm"] != 0:
+    if delivery.nesting["gap_mm"] != 0:
         raise NotApplicable("sheets are cut, with a gap between parts")
     return delivery.sheets
 
@@ -78,7 +78,7 @@ def _lines(drawing: Drawing) -> list[Line]:
 
 
 def _room(delivery: Delivery, name: str) -> Loop:
-    trim, (width, height) = float(delivery.design.raw["nesting"]["trim_mm"]), delivery.layout.sheets[name]
+    trim, (width, height) = float(delivery.nesting["trim_mm"]), delivery.layout.sheets[name]
     right, top = width - trim, height - trim
     return [(trim, trim), (right, trim), (right, top), (trim, top)]
 

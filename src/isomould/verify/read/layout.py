@@ -51,5 +51,5 @@ def _placement(raw: Json) -> Placement:
     if points.ndim != 2 or points.shape[1] != 2 or not np.isfinite(points).all():
         message = f"points of {raw['location']} are not finite pairs"
         raise Unreadable(message)
-    mark, location, sheet = (str(raw[key]) for key in ("id", "location", "sheet"))
+    mark, location, sheet = (str("" if raw[key] is None else raw[key]) for key in ("id", "location", "sheet"))
     return Placement(mark, location, sheet, points, float(raw["rotation_deg"]), bool(raw["turned_over"]))
