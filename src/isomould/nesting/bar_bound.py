@@ -8,12 +8,16 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.bar_columns import SLIGHT, generate, make_programme, whole
-from isomould.nesting.bar_pricing import copies_of, grid_of, most_worth
+from isomould.nesting.bar_ladder import Ladder, exact_ladder, grid, grid_step
+from isomould.nesting.bar_pricing import most_worth
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
 from isomould.nesting.layout import BoundKind
 
 ROUNDS = 60
 """Rounds of pricing."""
+
+MIXES = 100_000
+"""Numbers of bars of every kind that are listed; of more the best are searched."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,19 @@ class Demand:
     limits: Ints
 
 
+@dataclass(frozen=True, eq=False)
+class Hint:
+    """What a search knows: good patterns, worths (n,) of its sizes, and the cost that patterns can meet at best.
+
+    The worths are the `best` if they come from all patterns of the proof's own rack.
+    """
+
+    patterns: Sequence[Pattern]
+    worth: Floats | None = None
+    enough: float = np.inf
+    best: bool = False
+
+
 def length_bound(proof: Proof, counts: Ints) -> BarBound:
     """Bound by lengths, long pieces counted apart; every bar costs as much as the cheapest."""
     room, sizes = int(proof.rack.rooms.max()), np.repeat(proof.rack.sizes, counts)
@@ -71,31 +88,54 @@ def _bound_from(sizes: Ints, room: int, limit: int) -> int:
     return alone + len(large) + max(-(-over // room), 0)
 
 
-def linear_bound(
-    proof: Proof, patterns: Sequence[Pattern], need: Need, known: BarBound, fineness: int
-) -> tuple[BarBound, Demand]:
-    """Better a bound by the worths of two programmes, for costs and for bars, on a grid.
+def linear_bound(proof: Proof, hint: Hint, need: Need, known: BarBound, fineness: int) -> tuple[BarBound, Demand]:
+    """Better a bound by the worths of two programmes, for costs and for bars.
 
-    Sizes are rounded down to the grid and patterns may hold whatever fits then, so what is proved there holds.
+    Unless lengths are few, sizes are rounded down to a grid and patterns may hold whatever fits then: what is proved
+    there holds. Bars of one length need no programme where the worths of the hint prove enough.
     """
-    ones = np.ones(len(proof.rack.costs))
-    copies = copies_of(proof.rack, need.counts, np.ones(len(need.counts)))
-    step = grid_of(proof.rack, int(copies.sum()), fineness)
-    grid = BarRack(proof.rack.sizes // step, proof.rack.rooms // step, proof.rack.costs)
-    asked = [grid.costs, ones] if len(ones) > 1 else [grid.costs]
-    worths = [generate(make_programme(grid, costs, patterns), need, ROUNDS, None).worth for costs in asked]
-    demand = _demand(proof, need, worths, [most_worth(grid, need, worth) for worth in worths])
-    bars, _ = least_bars(demand, ones)
+    rack, ladder = _below(proof.rack, need, fineness)
+    ones, worth = np.ones(len(rack.costs)), hint.worth
+    if worth is not None and len(ones) == 1:
+        found = _bounded(proof, need, known, [(worth, most_worth(rack, need, worth, ladder))])
+        if hint.best or found[0].cost >= hint.enough:
+            return found
+    worth = worth if worth is not None and hint.best else _worth(rack, need, rack.costs, hint.patterns, ladder)
+    worths = [worth, *([_worth(rack, need, ones, hint.patterns, ladder)] if len(ones) > 1 else [])]
+    return _bounded(proof, need, known, [(worth, most_worth(rack, need, worth, ladder)) for worth in worths])
+
+
+def _below(rack: BarRack, need: Need, fineness: int) -> tuple[BarRack, Ladder]:
+    """Give a rack in which every cutting fits, and a ladder that is exact for it."""
+    ladder = exact_ladder(rack, need.counts)
+    if ladder is not None:
+        return rack, ladder
+    step = grid_step(rack, need.counts, fineness)
+    rough = BarRack(rack.sizes // step, rack.rooms // step, rack.costs)
+    return rough, grid(rough, 1)
+
+
+def _worth(rack: BarRack, need: Need, costs: Floats, patterns: Sequence[Pattern], ladder: Ladder) -> Floats:
+    programme = make_programme(rack, costs, patterns)
+    return generate(programme, need, ROUNDS, ladder).worth
+
+
+def _bounded(
+    proof: Proof, need: Need, known: BarBound, worths: Sequence[tuple[Floats, Floats]]
+) -> tuple[BarBound, Demand]:
+    """Bound by some worths of the sizes (n,), each with the most worth that bars of every kind (k,) hold."""
+    demand = _demand(proof, need, worths)
+    bars, _ = least_bars(demand, np.ones(len(proof.rack.costs)))
     cost, numbers = least_bars(demand, proof.rack.costs)
     kind: BoundKind = "lp" if bars > known.bars else known.kind
     fewest = known.fewest if numbers is None else int(numbers.sum())
     return BarBound(max(whole(bars), known.bars), max(float(whole(cost)), known.cost), kind, fewest), demand
 
 
-def _demand(proof: Proof, need: Need, worths: Sequence[Floats], most: Sequence[Floats]) -> Demand:
-    rows = np.array([proof.rack.rooms.astype(np.float64), *most])
+def _demand(proof: Proof, need: Need, worths: Sequence[tuple[Floats, Floats]]) -> Demand:
+    rows = np.array([proof.rack.rooms.astype(np.float64), *(most for _, most in worths)])
     length = float(proof.rack.sizes @ need.counts) + proof.lost
-    asked = np.array([length, *(float(worth @ need.counts) for worth in worths)])
+    asked = np.array([length, *(float(worth @ need.counts) for worth, _ in worths)])
     scale = np.maximum(rows.max(axis=1), 1e-12)
     return Demand(rows / scale[:, None], asked / scale, np.minimum(need.limits, need.counts.sum()))
 
@@ -106,15 +146,36 @@ def least_bars(demand: Demand, costs: Floats, dearer: Ints | None = None) -> tup
     They cost more, or as much and are more, than others if these are given. Of a single kind of bar the numbers
     are Farley's bound (1990). The cost is 0 if there are too few bars.
     """
+    if len(costs) == 1:
+        return _least_alike(demand, float(costs[0]), dearer)
     tie = 0.5 / max(int(demand.limits.sum()), 1)
     weights = costs + tie
     above = 0.0 if dearer is None else float(weights @ dearer) + tie / 2
+    few = np.prod(demand.limits + 1.0) <= MIXES
+    numbers = (_least_listed if few else _least_searched)(demand, weights, above)
+    return (0.0, None) if numbers is None else (float(costs @ numbers), numbers)
+
+
+def _least_listed(demand: Demand, weights: Floats, above: float) -> Ints | None:
+    """Look at all numbers of bars (k,) that there are."""
+    mixes = np.stack([axis.ravel() for axis in np.indices(tuple(demand.limits + 1))])
+    weight = weights @ mixes
+    held = (demand.rows @ mixes >= demand.asked[:, None] - SLIGHT).all(axis=0) & (weight >= above)
+    return mixes[:, held][:, np.argmin(weight[held])] if held.any() else None
+
+
+def _least_searched(demand: Demand, weights: Floats, above: float) -> Ints | None:
     enough = LinearConstraint(demand.rows, demand.asked - SLIGHT, np.inf)
     dear = LinearConstraint(weights[None, :], above, np.inf)
-    integers = np.ones(len(costs), dtype=np.int64)
+    integers = np.ones(len(weights), dtype=np.int64)
     limits = Bounds(0, demand.limits.astype(np.float64))
     found = milp(weights, integrality=integers, bounds=limits, constraints=[enough, dear], options={"mip_rel_gap": 0.0})
-    if found.x is None:
-        return 0.0, None
-    numbers = np.rint(found.x).astype(np.int64)
-    return float(costs @ numbers), numbers
+    return None if found.x is None else np.rint(found.x).astype(np.int64)
+
+
+def _least_alike(demand: Demand, cost: float, dearer: Ints | None) -> tuple[float, Ints | None]:
+    """Give the same of bars of one kind."""
+    held = demand.rows[:, 0] > 0
+    bars = max((whole(float(x)) for x in demand.asked[held] / demand.rows[held, 0]), default=0)
+    bars = bars if dearer is None else max(bars, int(dearer[0]) + 1)
+    return (cost * bars, np.array([bars])) if bars <= demand.limits[0] else (0.0, None)

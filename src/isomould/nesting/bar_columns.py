@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Bools, Floats, Ints
+from isomould.nesting.bar_ladder import Ladder
 from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
 
@@ -87,13 +88,13 @@ def _add_column(programme: Programme, cost: float, rows: object, values: object)
     programme.solver.addCol(cost, 0.0, highspy.kHighsInf, len(entries[0]), *entries)
 
 
-def generate(programme: Programme, need: Need, rounds: int, fineness: int | None) -> Shares:
+def generate(programme: Programme, need: Need, rounds: int, ladder: Ladder) -> Shares:
     """Price patterns for what is left until no more can save a whole bar; at most so many rounds."""
     _ask(programme, need)
     shares = _solve(programme, need)
     for _ in range(rounds):
         known = len(programme.patterns)
-        patterns = price(programme.rack, need, Values(shares.worth, programme.costs + shares.tolls), fineness)
+        patterns = price(programme.rack, need, Values(shares.worth, programme.costs + shares.tolls), ladder)
         add_patterns(programme, patterns)
         if len(programme.patterns) == known or _is_settled(programme, shares, patterns):
             break

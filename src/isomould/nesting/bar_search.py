@@ -1,10 +1,18 @@
-"""The methods for bars, tried in turn until the bound is met: two greedy ones, then patterns and a dive."""
+"""The methods for bars, tried in turn until the bound is met: two greedy ones, then patterns and a dive.
+
+Patterns that know all lengths are cheap; where they need a grid, bars are filled again before.
+"""
+
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
-from isomould.nesting.bar_bound import ROUNDS, BarBound, Demand, Proof, least_bars, length_bound, linear_bound
+from isomould.arrays import Ints
+from isomould.nesting.bar_bound import ROUNDS, BarBound, Demand, Hint, Proof, least_bars, length_bound, linear_bound
 from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, choose_whole, generate, make_programme, whole
 from isomould.nesting.bar_greedy import first_fit, largest_first
+from isomould.nesting.bar_ladder import Ladder, Ladders, exact_ladder
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, cost_of, less, merit, sum_of
 from isomould.nesting.bar_squeeze import pack, squeeze
 
@@ -38,35 +46,44 @@ def find_bars(rack: BarRack, need: Need, proof: Proof | None = None) -> tuple[li
     proof = proof or Proof(rack)
     bound = length_bound(proof, need.counts)
     patterns = _best(rack, [first_fit(rack, need), largest_first(rack, need)])
-    patterns = _squeezed(rack, patterns, need, bound)
+    if _meets(rack, patterns, need, bound):
+        return patterns, bound
+    ladders = Ladders(rack, exact_ladder(rack, need.counts))
+    if ladders.exact is None:
+        patterns = _squeezed(rack, patterns, need, bound)
     if not _meets(rack, patterns, need, bound) and len(rack.sizes) <= MOST:
-        patterns, bound = _by_columns(proof, rack, need, patterns, bound)
+        patterns, bound = _by_columns(proof, ladders, need, patterns, bound)
     placed = Need(sum_of(rack, patterns), need.limits)
     return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns)
 
 
 def _by_columns(
-    proof: Proof, rack: BarRack, need: Need, patterns: list[Pattern], bound: BarBound
+    proof: Proof, ladders: Ladders, need: Need, patterns: list[Pattern], bound: BarBound
 ) -> tuple[list[Pattern], BarBound]:
     """Bound by patterns, and better some bars by the cheapest mixes that may hold all, or by a dive."""
+    rack = ladders.rack
     programme = make_programme(rack, rack.costs, patterns)
-    bound, demand, fineness = _settle(programme, proof, need, bound)
-    if demand is not None and not _meets(rack, patterns, need, bound):
+    bound, demand, fineness = _settle(programme, ladders, proof, need, bound)
+    if demand is not None and len(rack.costs) > 1 and not _meets(rack, patterns, need, bound):
         patterns = _mixed(rack, need, patterns, demand)
     if not _meets(rack, patterns, need, bound):
-        patterns = _dive(_counting(programme), need, patterns, bound, fineness)
+        patterns = _dive(_counting(programme), partial(ladders, fineness=fineness), need, patterns, bound)
     return _squeezed(rack, patterns, need, bound), bound
 
 
-def _settle(programme: Programme, proof: Proof, need: Need, bound: BarBound) -> tuple[BarBound, Demand | None, int]:
+def _settle(
+    programme: Programme, ladders: Ladders, proof: Proof, need: Need, bound: BarBound
+) -> tuple[BarBound, Demand | None, int]:
     """Refine the grid until patterns can meet the bound in fractions, or are proved to cost more."""
     demand, several = None, len(programme.costs) > 1
     for fineness in GRIDS:
-        shares = generate(programme, need, ROUNDS, fineness)
+        shares = generate(programme, need, ROUNDS, ladders(need.counts, fineness))
         least = whole(programme.top * shares.cost)
         if least > bound.cost or several:
-            bound, demand = linear_bound(proof, _used(programme, shares), need, bound, fineness)
-        if least <= bound.cost or several:
+            best = ladders.exact is not None and _alike(proof.rack, programme.rack)
+            hint = Hint(_used(programme, shares), shares.worth, least, best)
+            bound, demand = linear_bound(proof, hint, need, bound, fineness)
+        if least <= bound.cost or several or ladders.exact:
             return bound, demand, fineness
     return bound, demand, GRIDS[-1]
 
@@ -88,6 +105,10 @@ def _squeezed(rack: BarRack, patterns: list[Pattern], need: Need, bound: BarBoun
     if len(rack.costs) > 1 or not _serves(patterns, need) or _meets(rack, patterns, need, bound):
         return patterns
     return squeeze(rack, patterns, bound.bars)
+
+
+def _alike(one: BarRack, other: BarRack) -> bool:
+    return np.array_equal(one.sizes, other.sizes) and np.array_equal(one.rooms, other.rooms)
 
 
 def _used(programme: Programme, shares: Shares) -> list[Pattern]:
@@ -120,15 +141,17 @@ def _bound(proof: Proof, need: Need, patterns: list[Pattern]) -> BarBound:
     proof = Proof(proof.rack)
     bound = length_bound(proof, need.counts)
     small = 0 < len(need.counts) <= MOST
-    return linear_bound(proof, patterns, need, bound, GRIDS[0])[0] if small else bound
+    return linear_bound(proof, Hint(patterns), need, bound, GRIDS[0])[0] if small else bound
 
 
-def _dive(programme: Programme, need: Need, best: list[Pattern], bound: BarBound, fineness: int) -> list[Pattern]:
+def _dive(
+    programme: Programme, ladder: Callable[[Ints], Ladder], need: Need, best: list[Pattern], bound: BarBound
+) -> list[Pattern]:
     """Fix bars step by step, fill the rest each time, and end when nothing better can come."""
     rack, left = programme.rack, need
     fixed, few = list[Pattern](), FEW
     while left.counts.any() and not _meets(rack, best, need, bound):
-        shares = generate(programme, left, AGAIN if fixed else ROUNDS, fineness)
+        shares = generate(programme, left, AGAIN if fixed else ROUNDS, ladder(left.counts))
         if _serves(best, need) and _to_come(programme, shares, fixed) >= merit(rack, best)[1:]:
             break
         if (to_come := float(shares.uses.sum())) <= few:
