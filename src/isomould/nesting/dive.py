@@ -1,11 +1,13 @@
 """Many different parts: column generation over strips and stacks, then a dive into whole sheets.
 
-A round of generation is a whole cover of the parts: sheets filled one after another by what pieces are worth in
-the master programme. The strips of a cover complement each other, so that a few covers do what hundreds of
-single columns would. The dive fixes the sheets that are used most, and generates anew for what is left.
+First come whole covers of the parts: sheets filled one after another by what pieces are worth in the master
+programme. The strips of a cover complement each other, so that a few covers do what hundreds of single columns
+would. Then strips and stacks are priced exactly, by worths that stay near those of the best bound (Wentges 1997).
+The dive fixes the sheets that are used most, and prices anew where what is left would cost a sheet more.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,18 +16,24 @@ from isomould.arrays import Floats, Ints
 from isomould.nesting.cover import Rack, cost_of, pieces_of
 from isomould.nesting.crew import Crew, Order
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
-from isomould.nesting.patterns import bound_pattern
+from isomould.nesting.pricing import add_offer, make_offers
 from isomould.nesting.search import Effort, Found, Search
 from isomould.nesting.sheets import SheetPlan
 
 MOST = 2000
 """Different parts up to which the master programme pays."""
 
-ROUNDS: dict[Effort, int] = {"quick": 0, "normal": 8, "best": 16}
-"""Covers that are generated before the dive, by effort."""
+COVERS = 3
+"""Covers that are generated before the dive."""
 
-AGAIN = 2
-"""Covers of what is left, after each step of the dive."""
+ROUNDS: dict[Effort, int] = {"quick": 0, "normal": 30, "best": 60}
+"""Times that columns are priced before the dive, by effort."""
+
+AGAIN = 3
+"""Times that they are priced again in a step of the dive that would cost a sheet."""
+
+CALM = 0.8
+"""How near the worth for pricing stays to that of the best bound; the rest is the worth in the programme."""
 
 CHUNK = 100
 """Pieces that a cover sees at a time, drawn by lot."""
@@ -40,7 +48,7 @@ SPREAD = 0.02
 """Relative standard deviation of what a piece is worth to a cover, against its worth in the programme."""
 
 LEAST_WORTH = 0.5
-"""What a piece is worth at least, by its area in sheets: nothing is left until the end."""
+"""What a piece is worth at least to a cover, by its area in sheets: nothing is left until the end."""
 
 USED = 1e-6
 """Columns used less than this are not used."""
@@ -48,13 +56,14 @@ USED = 1e-6
 
 @dataclass(eq=False)
 class _Dive:
-    """What a dive knows; `worth` is the running mean of what the pieces are worth."""
+    """What a dive knows; `worth` is that of the best `bound` on what is left."""
 
     rack: Rack
     crew: Crew
     master: Master
     worth: Floats
     chance: np.random.Generator
+    bound: float = 0.0
 
 
 @dataclass(eq=False)
@@ -70,26 +79,43 @@ def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: C
     state = _Dive(rack, crew, make_master(counts), rack.areas, np.random.default_rng(0))
     add_plans(state.master, first)
     best = first
+    _price(state, counts, rack.areas, {})
     for done in range(ROUNDS[task.effort]):
         if task.stops or len(best) <= rack.goal:
             return Found(best, not task.stops)
         task.tell(done, ROUNDS[task.effort], len(best), rack.goal)
-        _learn(state, solve(state.master, counts), done)
-        best = min(best, _cover(state, counts), key=cost_of)
-    bound = bound_pattern(rack, counts, state.worth, zones=False)
+        solution = solve(state.master, counts)
+        if done < COVERS:
+            best = min(best, _cover(state, counts, solution), key=cost_of)
+        elif not _generate(state, counts, solution):
+            break
+    bound = math.ceil(state.bound - USED)
     return replace(_sink(state, counts, best, task), pattern_bound=bound)
 
 
-def _learn(state: _Dive, solution: Solution, done: int) -> None:
-    """Move towards the worth in the programme; from the first worth, which has another scale, at once."""
-    mean = (state.worth + solution.worth) / 2 if done else solution.worth
-    state.worth = np.maximum(mean, LEAST_WORTH * state.rack.areas)
+def _generate(state: _Dive, counts: Ints, solution: Solution) -> bool:
+    """Price new columns, calmly if that finds any; tell whether there are."""
+    worths = (calm * state.worth + (1 - calm) * solution.worth for calm in (CALM, CALM / 2, 0.0))
+    return any(_price(state, counts, worth, solution.slots) for worth in worths)
 
 
-def _cover(state: _Dive, counts: Ints) -> list[SheetPlan]:
+def _price(state: _Dive, counts: Ints, worth: Floats, slots: Mapping[Slot, float]) -> bool:
+    """Add what pays for some worths, and remember them if they give the best bound."""
+    offers = make_offers(state.rack, counts, worth, slots)
+    most = max(offer.most for offer in offers)
+    if float(worth @ counts) / most > state.bound:
+        state.worth, state.bound = worth / most, float(worth @ counts) / most
+    before = len(state.master.columns)
+    for offer in offers:
+        add_offer(state.master, offer)
+    return len(state.master.columns) > before
+
+
+def _cover(state: _Dive, counts: Ints, solution: Solution) -> list[SheetPlan]:
     """Cover the counts chunk by chunk, and add what comes of it to the programme."""
     spread = 1 + SPREAD * state.chance.standard_normal(len(counts))
-    orders = [Order(share, state.worth * spread, state.rack.stock) for share in _shares(state, counts)]
+    worth = np.maximum(solution.worth, LEAST_WORTH * state.rack.areas) * spread
+    orders = [Order(share, worth, state.rack.stock) for share in _shares(state, counts)]
     plans = [plan for filled in state.crew(orders) for plan in filled]
     add_plans(state.master, plans)
     return plans
@@ -104,18 +130,26 @@ def _shares(state: _Dive, counts: Ints) -> list[Ints]:
 def _sink(state: _Dive, left: Ints, best: list[SheetPlan], task: Search) -> Found:
     """Fix sheets step by step until nothing is left or the best cannot be bettered any more."""
     fixed: list[SheetPlan] = []
-    solution = solve(state.master, left)
     while left.any() and len(best) > state.rack.goal:
+        solution = _settle(state, fixed, left, best)
         new = _fix(state, solution, left)
         if task.stops or not new or _least(state.rack, fixed, solution) >= cost_of(best) - USED:
             return Found(best, not task.stops)
         task.tell(len(fixed), len(best), len(best), state.rack.goal)
         fixed, left = fixed + new, left - pieces_of(new, len(left))
-        for _ in range(AGAIN):
-            _learn(state, solution, done=1)
-            best = min(best, fixed + _cover(state, left), key=cost_of)
-            solution = solve(state.master, left)
+        best = min(best, fixed + _cover(state, left, solution), key=cost_of)
     return Found(best, True)
+
+
+def _settle(state: _Dive, fixed: list[SheetPlan], left: Ints, best: list[SheetPlan]) -> Solution:
+    """Solve for what is left, with new columns while the best would not be bettered otherwise."""
+    state.bound = 0.0
+    solution = solve(state.master, left)
+    for _ in range(AGAIN):
+        if _least(state.rack, fixed, solution) < cost_of(best) - USED or not _generate(state, left, solution):
+            break
+        solution = solve(state.master, left)
+    return solution
 
 
 def _least(rack: Rack, fixed: list[SheetPlan], solution: Solution) -> float:
@@ -143,7 +177,7 @@ def _fix(state: _Dive, solution: Solution, left: Ints) -> list[SheetPlan]:
 def _used(master: Master, solution: Solution) -> tuple[list[_Use], dict[Slot, list[_Use]]]:
     """Give the used stacks, and the used strips by their slots."""
     pairs = zip(master.columns, solution.uses.tolist(), strict=True)
-    uses = [_Use(column, amount) for column, amount in pairs if amount > USED]
+    uses = [_Use(column, amount) for column, amount in pairs if amount > USED and column.stack]
     strips = dict[Slot, list[_Use]]()
     for use in uses:
         if use.column.strip:
@@ -156,11 +190,20 @@ def _choose(stack: Stack, strips: dict[Slot, list[_Use]], left: Ints) -> list[_U
     chosen: list[_Use] = []
     for slot in stack:
         room = left - _taken(chosen, len(left))
-        fitting = [use for use in strips.get(slot, []) if all(room[part] >= many for part, many in use.column.takes)]
+        fitting = [
+            use
+            for own in _no_taller(slot, strips)
+            for use in strips[own]
+            if use.amount - chosen.count(use) > USED and all(room[part] >= many for part, many in use.column.takes)
+        ]
         if not fitting:
             break
-        chosen.append(max(fitting, key=lambda use: use.amount - chosen.count(use)))
+        chosen.append(max(fitting, key=lambda use: (use.column.stack[0][2], use.amount - chosen.count(use))))
     return chosen
+
+
+def _no_taller(slot: Slot, strips: dict[Slot, list[_Use]]) -> list[Slot]:
+    return [own for own in strips if own[:2] == slot[:2] and own[2] <= slot[2]]
 
 
 def _taken(chosen: list[_Use], parts: int) -> Ints:

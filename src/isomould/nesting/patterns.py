@@ -63,9 +63,9 @@ class Stacks:
     worth: Floats
     last: Ints
 
-    def trace(self, case: int) -> list[int]:
-        """Give the items of the best stack in the whole room."""
-        room, chosen = len(self.last) - 1, list[int]()
+    def trace(self, case: int, room: int | None = None) -> list[int]:
+        """Give the items of the best stack in a room, by default the whole."""
+        room, chosen = len(self.last) - 1 if room is None else room, list[int]()
         while room > 0:
             item = int(self.last[room, case])
             chosen += [item] if item >= 0 else []
@@ -118,7 +118,7 @@ def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, 
         if not new:
             break
         plans = plans + new
-    return Found(_whole(plans, counts, first), True, bound_pattern(rack, counts, _worth(plans, counts), zones=True))
+    return Found(_whole(plans, counts, first), True, bound_pattern(rack, counts, _worth(plans, counts)))
 
 
 def _gaining(plans: Sequence[SheetPlan], worth: Floats) -> list[SheetPlan]:
@@ -219,13 +219,13 @@ def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
     return SheetPlan(frame, tuple(strips))
 
 
-def bound_pattern(rack: Rack, counts: Ints, worth: Floats, *, zones: bool) -> int:
-    """Bound the cost of sheets that are stacks of strips, with zones or without, all measured on the grid (Farley).
+def bound_pattern(rack: Rack, counts: Ints, worth: Floats) -> int:
+    """Bound the cost of sheets that are stacks of strips and zones, all measured on the grid (Farley).
 
     Whatever pieces are worth: if no sheet holds more than its cost times v, all pieces together need their worth
     divided by v.
     """
-    priced = [price(f.kinds, counts, worth, f.capacity, all_lengths=zones) for f in rack.frames]
+    priced = [price(f.kinds, counts, worth, f.capacity, all_lengths=True) for f in rack.frames]
     pairs = list(zip(rack.frames, priced, strict=True))
     most = [float(_best_stack(f, own, _zones(f, pairs))[0].worth[-1, 0]) / f.cost for f, own in pairs]
     return math.ceil(float(worth @ counts) / max(most) - 1e-6)

@@ -27,7 +27,8 @@ def find_plans(rack: Rack, counts: Ints, task: Search) -> Found:
 
 def _find(rack: Rack, counts: Ints, task: Search, crew: Crew) -> Found:
     first = first_sheets(rack, counts, task, crew)
-    if task.effort == "quick" or len(first) <= LOSS * rack.goal or rack.stock.min() < PLENTY or len(counts) > dive.MOST:
+    near = len(first) <= (LOSS if task.effort == "normal" else 1) * rack.goal
+    if task.effort == "quick" or near or rack.stock.min() < PLENTY or len(counts) > dive.MOST:
         return improve(rack, first, counts, task, crew)
     generate = patterns.find_sheets if patterns.worth_trying(counts) else dive.dive
     found = generate(rack, first, counts, task, crew)

@@ -108,8 +108,8 @@ def strip_parts(strip: Strip) -> list[int]:
 def take_once(strip: Strip, left: Ints) -> Strip:
     """Drop what there is no piece left of, and count the others off `left`; the strip may come back empty."""
     if not isinstance(strip, Zone):
-        return _once(strip, left)
-    runs = (_once(run, left) for run in strip.runs)
+        return once(strip, left)
+    runs = (once(run, left) for run in strip.runs)
     kept = tuple(run for run in runs if run)
     return Zone(strip.height, kept) if kept else ()
 
@@ -119,7 +119,7 @@ def _next_strip(frame: Frame, counts: Ints, values: Floats, room: int) -> Run:
     priced = price(kinds, counts, values, frame.capacity)
     if not priced.worth.any():
         return _alone(kinds, counts)
-    return _once(trace(priced, _best_class(priced, frame, room), frame.capacity), counts.copy())
+    return once(trace(priced, _best_class(priced, frame, room), frame.capacity), counts.copy())
 
 
 def _alone(kinds: Sequence[Kind], counts: Ints) -> Run:
@@ -128,7 +128,7 @@ def _alone(kinds: Sequence[Kind], counts: Ints) -> Run:
     return next((((item,),) for item in items), ())
 
 
-def _once(blocks: Sequence[Block], left: Ints) -> Run:
+def once(blocks: Sequence[Block], left: Ints) -> Run:
     """Drop what the knapsack took twice, once in each position."""
     kept = (tuple(item for item in block if _take_one(left, item.part)) for block in blocks)
     return tuple(block for block in kept if block)
