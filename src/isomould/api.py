@@ -1,8 +1,9 @@
 """The verbs of the command line as functions of the same names."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -172,6 +173,8 @@ class NestFiles:
     ----------
     stock
         A TOML file with a `[stock]` table, such as a project: its keys take the place of the part list's.
+    changes
+        Keys of that table, which take the place of both, such as `{"gap": 5, "sheets": [...]}`.
     sheets
         A folder for the sheets as DXF.
     plan
@@ -183,6 +186,7 @@ class NestFiles:
     """
 
     stock: Path | None = None
+    changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
     sheets: Path | None = None
     plan: Path | None = None
     overwrite: bool = False
@@ -231,9 +235,8 @@ def nest(
     stop, files = stop or Stop(), files or NestFiles()
     targets = Targets(Path(out), files.sheets, files.plan, files.overwrite)
     check_targets(targets)
-    given = read_part_list(
-        Path(instance), Asked(read_stock(files.stock) if files.stock else {}, files.units, files.layer)
-    )
+    stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
+    given = read_part_list(Path(instance), Asked(stock, files.units, files.layer))
     for note in given.notes:
         (remark or _ignore)(note)
     layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))

@@ -5,34 +5,27 @@ Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 inte
 
 import functools
 import os
-import signal
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import click
-from rich.console import Console
 from rich.table import Table
 
 import isomould
 from isomould.api import View
 from isomould.comparison import families_table
+from isomould.console import EFFORT, INTERRUPTED, Progress, catch_signals, console, say, warn
 from isomould.documents import table as tables
 from isomould.documents.numbers import format_number
-from isomould.errors import IsomouldError, Note
+from isomould.errors import IsomouldError
 from isomould.form.survey import Division
-from isomould.nesting.search import Effort
-from isomould.nesting.stop import Stop
+from isomould.nest_command import nest
 from isomould.templates import describe_template, template_names
-from isomould.units import LengthUnit
 from isomould.verify import Check
 
-_EFFORT = click.Choice(["quick", "normal", "best"])
 _VIEW = click.Choice(["axonometry", "plan", "elevation", "developed", "curvature"])
-_UNITS = click.Choice(get_args(LengthUnit))
-_INTERRUPTED = 130
 _STATUS = {"pass": "pass", "fail": "FAIL", "not_applicable": "none"}
 
 
@@ -40,6 +33,9 @@ _STATUS = {"pass": "pass", "fail": "FAIL", "not_applicable": "none"}
 @click.version_option(package_name="isomould")
 def cli() -> None:
     """From two curves to everything a shop needs to build a free-form gridshell."""
+
+
+cli.add_command(nest)
 
 
 @cli.command()
@@ -50,12 +46,12 @@ def new(name: str | None, template: str, list_: bool) -> None:
     """Start a project file NAME.toml from a template."""
     if list_:
         for known in template_names():
-            _say(f"{known:20}  {describe_template(known)}")
+            say(f"{known:20}  {describe_template(known)}")
         return
     if name is None:
         raise click.UsageError("give the new project a NAME, or --list for the templates")
     for path in isomould.new(name, template):
-        _say(f"wrote {path}")
+        say(f"wrote {path}")
 
 
 @cli.command()
@@ -67,12 +63,12 @@ def check(project: Path, changes: Sequence[str]) -> None:
     table = Table(box=None, show_header=False)
     for item, value, unit in checked.facts:
         table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
-    _console().print(table)
-    _console().print(_division_table(checked.divisions))
+    console().print(table)
+    console().print(_division_table(checked.divisions))
     if checked.kit is not None:
-        _console().print(_kit(checked.kit))
+        console().print(_kit(checked.kit))
     for note in checked.notes:
-        _warn(f"note: {note}")
+        warn(f"note: {note}")
 
 
 def _building(command: Callable[..., None]) -> Callable[..., None]:
@@ -85,7 +81,7 @@ def _building(command: Callable[..., None]) -> Callable[..., None]:
             "--previous", type=click.Path(path_type=Path), help="Former delivery: unchanged parts keep its marks."
         ),
         click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".'),
-        click.option("--effort", type=_EFFORT, default="normal", show_default=True, help="How long to nest."),
+        click.option("--effort", type=EFFORT, default="normal", show_default=True, help="How long to nest."),
         click.option("--jobs", type=click.IntRange(min=1), help="Processes; default one per core, result the same."),
         click.option("--quiet", is_flag=True, help="No progress."),
     )
@@ -96,7 +92,7 @@ def _building(command: Callable[..., None]) -> Callable[..., None]:
 @_building
 def build(project: Path, out: Path | None, changes: Sequence[str], quiet: bool, **run: Any) -> None:
     """Build a project: cut sheets, schedules, solids, models, and the certificate that proves them."""
-    with _Progress(quiet) as report:
+    with Progress(quiet) as report:
         _built(isomould.build(project, out, changes, _run_of(report, **run)))
 
 
@@ -104,7 +100,7 @@ def build(project: Path, out: Path | None, changes: Sequence[str], quiet: bool, 
 @_building
 def schedule(project: Path, out: Path | None, changes: Sequence[str], quiet: bool, **run: Any) -> None:
     """Write the workbook and the tables of a project, without drawings and solids."""
-    with _Progress(quiet) as report:
+    with Progress(quiet) as report:
         _built(isomould.schedule(project, out, changes, _run_of(report, **run)))
 
 
@@ -115,9 +111,9 @@ def _run_of(report: Callable[[str], None], replace: bool, **run: Any) -> isomoul
 def _built(built: isomould.Built) -> None:
     """Say what was published, and what should be known about it."""
     passed = sum(check.status == "pass" for check in built.certificate.checks)
-    _say(f"built {built.folder} ({passed} checks passed)")
+    say(f"built {built.folder} ({passed} checks passed)")
     for note in built.design.notes:
-        _warn(f"note: {note}")
+        warn(f"note: {note}")
 
 
 @cli.command()
@@ -132,52 +128,9 @@ def verify(folder: Path, sheets: Path | None, plan: Path | None) -> None:
     for check in certificate.failures:
         click.echo(f"failed: {check.id} {check.what}: {check.reason or check.where}")
     for one in certificate.checks:
-        _say(f"{_STATUS[one.status]}  {one.id:<5} {one.what}\n{_measured(one)}")
+        say(f"{_STATUS[one.status]}  {one.id:<5} {one.what}\n{_measured(one)}")
     if not certificate.passed:
         raise isomould.CertificateFailed(f"E-CERTIFICATE {folder}: {len(certificate.failures)} checks failed")
-
-
-@cli.command()
-@click.argument("instance", type=click.Path(path_type=Path))
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="Layout file (JSON) to write.")
-@click.option("--effort", type=_EFFORT, default="normal", show_default=True)
-@click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; they change the time, not the layout.")
-@click.option("--stock", type=click.Path(path_type=Path), help="TOML file with a [stock] table, such as a project.")
-@click.option("--sheets", type=click.Path(path_type=Path), help="Folder to write the sheets to, as DXF.")
-@click.option("--plan", type=click.Path(path_type=Path), help="Cutting plan (PDF) to write.")
-@click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
-@click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
-@click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
-def nest(instance: Path, out: Path, effort: Effort, time_limit: float | None, jobs: int | None, **files: Any) -> None:
-    """Nest a part list of any origin on stock sheets: JSON, CSV, a folder of drawings (DXF), or a delivery."""
-    stop = Stop(time_limit)
-    signal.signal(signal.SIGINT, stop.interrupt)
-    click.echo(f"nesting {instance} (Ctrl-C keeps the best layout so far)", err=True)
-    asked = isomould.NestFiles(**files)
-    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set()), jobs, asked, _remark)
-    _say(
-        f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
-        f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
-    )
-    if stop.interrupted:
-        sys.exit(_INTERRUPTED)
-
-
-def _remark(note: Note) -> None:
-    _warn(f"note: {note}")
-
-
-def _tell_sheets(told: set[int]) -> Callable[[int, int, int, int], None]:
-    """Give a progress that tells every number of sheets once."""
-
-    def tell(_: int, __: int, sheets: int, bound: int) -> None:
-        if sheets not in told:
-            told.add(sheets)
-            above = f", at least {bound} needed, {sheets - bound} above that" if bound > 0 else ""
-            click.echo(f"{sheets} sheets{above}", err=True)
-
-    return tell
 
 
 @cli.command()
@@ -187,7 +140,7 @@ def _tell_sheets(told: set[int]) -> Callable[[int, int, int, int], None]:
 def compare(project: Path, changes: Sequence[str], out: Path | None) -> None:
     """Compare mesh families on the project's surface: the same rail, generatrix and counts."""
     compared = isomould.compare(project, changes, out)
-    _console().print(_families(families_table(compared)))
+    console().print(_families(families_table(compared)))
     for family in compared:
         if family.reason:
             click.echo(f"no {family.family} mesh: {family.reason}", err=True)
@@ -253,55 +206,11 @@ def _measured(check: Check) -> str:
     return f"{'':<12}{said}"
 
 
-def _console() -> Console:
-    return _Reader(highlight=False, soft_wrap=False)
-
-
-def _say(text: str) -> None:
-    _console().out(text, highlight=False)
-
-
-def _warn(text: str) -> None:
-    with suppress(OSError):  # nobody reads it
-        click.echo(text, err=True)
-
-
-class _Reader(Console):
-    """A console whose reader may go away (`| head`): what was done stays done, and the exit code says so."""
-
-    def on_broken_pipe(self) -> None:
-        with suppress(SystemExit):
-            super().on_broken_pipe()
-
-
-class _Progress:
-    """Shows the running stage on stderr: a spinner on a terminal, plain lines otherwise."""
-
-    def __init__(self, quiet: bool) -> None:
-        self.console = _Reader(stderr=True, quiet=quiet)
-        self.status = self.console.status("starting") if self.console.is_terminal and not quiet else None
-
-    def __enter__(self) -> Callable[[str], None]:
-        return self._report
-
-    def _report(self, stage: str) -> None:
-        if self.status:
-            self.status.update(stage)
-            self.status.start()
-        else:
-            with suppress(OSError):  # a full log must not stop the work
-                self.console.print(stage, highlight=False)
-
-    def __exit__(self, *_: object) -> None:
-        if self.status:
-            self.status.stop()
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; every failure that users can meet is one message and an exit code."""
-    signal.signal(signal.SIGTERM, _terminate)
+    catch_signals(_terminate, "SIGTERM", "SIGBREAK")
     code = _run(arguments)
-    if code == _INTERRUPTED:
+    if code == INTERRUPTED:
         # Threads of a pool of workers may hold locks that the interrupt left closed: do not wait for them.
         sys.stdout.flush()
         sys.stderr.flush()
@@ -320,15 +229,15 @@ def _run(arguments: Sequence[str] | None) -> int:
         error.show()
         return error.exit_code
     except IsomouldError as error:
-        _warn(f"isomould: {error}")
+        warn(f"isomould: {error}")
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):
-        _warn("isomould: interrupted; nothing was published")
-        return _INTERRUPTED
+        warn("isomould: interrupted; nothing was published")
+        return INTERRUPTED
     except OSError as error:
-        _warn(f"isomould: E-PRINT: the output cannot be written ({error.strerror or error}).")
+        warn(f"isomould: E-PRINT: the output cannot be written ({error.strerror or error}).")
         return 3
     except MemoryError:
-        _warn("isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.")
+        warn("isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.")
         return 2
     return result if isinstance(result, int) else 0

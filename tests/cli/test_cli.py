@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from pypdf import PdfReader
 
 import isomould
 from isomould.cli import main
+from isomould.nest_command import Interrupting
+from isomould.nesting.stop import Stop
 from museum import SMALL, changed
 
 TRAPEZOIDS = {
@@ -162,19 +165,73 @@ def test_nest_writes_sheets_and_plan_or_nothing(tmp_path):
     assert (tmp_path / "cut" / "notes.txt").read_text() == "mine"
 
 
-def test_an_interrupted_nest_keeps_the_best_layout(tmp_path):
-    """Ctrl-C while it searches: exit 130, and a whole layout that says so."""
-    (tmp_path / "parts.json").write_text(json.dumps(many(400)))
-    command = [sys.executable, "-m", "isomould", "nest", "parts.json", "--out", "layout.json", "--effort", "best"]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+def left_behind(session):
+    """Processes that a session still has, entries that nobody has read apart."""
+    found = list[str]()
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it has just ended
+            state, _, _, of, *_ = path.read_text().rpartition(")")[2].split()
+            found += [path.parent.name] if of == str(session) and state != "Z" else []
+    return found
+
+
+def wait_for(left):
+    """Give what is left after a while, nothing at best."""
+    until = time.monotonic() + 20
+    while (found := left()) and time.monotonic() < until:
+        time.sleep(0.02)
+    return found
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="/proc tells who runs")
+@pytest.mark.parametrize(("number", "jobs"), [(signal.SIGINT, 1), (signal.SIGTERM, 2)])
+def test_an_interrupted_nest_keeps_the_best_layout(tmp_path, number, jobs):
+    """Ctrl-C, or the end that a shell sends to all processes: exit 130, a whole layout that says so, its sheets."""
+    (tmp_path / "parts.json").write_text(json.dumps(many(250)))
+    command = f"nest parts.json --out layout.json --effort best --sheets cut --jobs {jobs}".split()
+    process = [sys.executable, "-m", "isomould", *command]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(process, cwd=tmp_path, start_new_session=True, **pipes) as running:
         assert b"nesting" in running.stderr.readline()
-        time.sleep(1)
-        running.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        os.killpg(running.pid, number)
         _, errors = running.communicate(timeout=120)
-    assert running.returncode == 130, errors
+    assert (running.returncode, b"Traceback" in errors) == (130, False), errors
+    assert not wait_for(lambda: left_behind(running.pid))
     layout = json.loads((tmp_path / "layout.json").read_text())
     assert (layout["status"], layout["reproducible"]) == ("interrupted", False)
-    assert len(layout["placements"]) == 400
+    assert len(layout["placements"]) == 250
+    assert len(list((tmp_path / "cut").iterdir())) == len(layout["sheets"])
+
+
+def test_the_second_interrupt_ends_a_nest_at_once(monkeypatch):
+    """One that comes in the same second is the first again: shells and services send it to the group too."""
+    stop, now = Stop(), [100.0]
+    interrupting = Interrupting(stop)
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    interrupting(signal.SIGTERM, None)
+    now[0] += 0.5
+    interrupting(signal.SIGTERM, None)
+    assert stop.interrupted
+    now[0] += 0.6
+    with pytest.raises(KeyboardInterrupt):
+        interrupting(signal.SIGTERM, None)
+
+
+def test_quick_stock_by_options(tmp_path):
+    """Options take the place of the stock file's keys; what they cannot be is said."""
+    (tmp_path / "parts.csv").write_text("mark,qty,a,b,h,ol,orr\nP1,6,900,820,700,40,40\n")
+    (tmp_path / "stock.toml").write_text('[stock]\ntrim = 20\nsheets = [{name = "A", width = 900, height = 900}]\n')
+    command = ("nest", "parts.csv", "--out", "layout.json", "--effort", "quick", "--quiet", "--stock", "stock.toml")
+    asked = ("--sheet", "3000x2000", "--sheet", "2.4 m x 1.2 m", "--gap", "1/4in", "--kerf", "2", "--turning", "half")
+    nested = run(*command, *asked, folder=tmp_path)
+    assert (nested.returncode, nested.stderr) == (0, "")
+    layout = json.loads((tmp_path / "layout.json").read_text())
+    assert {sheet["stock"] for sheet in layout["sheets"]} <= {"3000 x 2000", "2400 x 1200"}
+    assert (layout["nesting"]["gap_mm"], layout["nesting"]["kerf_mm"], layout["nesting"]["trim_mm"]) == (6.35, 2, 20)
+    for wrong in (("--sheet", "3000"), ("--sheet", "3x2x1"), ("--gap", "5 miles"), ("--gap", "nan"), ("--gap", "-1")):
+        refused = run(*command, *wrong, folder=tmp_path)
+        assert (refused.returncode, "Traceback" in refused.stderr) == (2, False)
 
 
 def test_a_time_limit_is_marked(tmp_path):

@@ -119,7 +119,7 @@ def make_stock(given: Mapping[str, Any], file: str) -> StockSettings:
         E-NEST-11, naming the field; without any sheet too.
     """
     if not given.get("sheets"):
-        way_out = "Give --stock FILE.toml with a [stock] table that has sheets."
+        way_out = "Give --sheet 6000x3210, or --stock FILE.toml with a [stock] table that has sheets."
         refuse(f"{file}: sheet", "missing", "at least one stock sheet", way_out)
     try:
         return StockSettings.model_validate(dict(given))

@@ -1,0 +1,131 @@
+"""The command `nest`: stock by options, progress, and what a signal does to it."""
+
+import functools
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, get_args
+
+import click
+
+import isomould
+from isomould.console import EFFORT, INTERRUPTED, catch_signals, say, warn
+from isomould.errors import Note
+from isomould.intake.stock import length_of, sheet_of
+from isomould.nesting.search import Effort
+from isomould.nesting.settings import Turning
+from isomould.nesting.stop import Stop
+from isomould.units import LengthUnit
+
+_UNITS = click.Choice(get_args(LengthUnit))
+
+
+class _Quantity(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] - generic in newer versions only
+    """A value of the `[stock]` table as an option says it."""
+
+    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
+        self.name, self.read = name, read
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        try:
+            return self.read(value)
+        except ValueError as fault:
+            self.fail(str(fault), param, ctx)
+
+
+_LENGTH, _SHEET = _Quantity("length", length_of), _Quantity("width x height", sheet_of)
+
+
+def _stocked(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command options for the keys of the `[stock]` table, as one argument `changes`."""
+    arguments = (
+        click.option("--stock", type=click.Path(path_type=Path), help="TOML file with a [stock] table, or a project."),
+        click.option("--sheet", type=_SHEET, multiple=True, help="Such as 6000x3210, in place of all others."),
+        click.option("--gap", type=_LENGTH, help="Clear distance of parts, kerf included; mm or with a unit."),
+        click.option("--trim", type=_LENGTH, help="Lost along every edge of a sheet."),
+        click.option("--kerf", type=_LENGTH, help="Width of the cut."),
+        click.option("--turning", type=click.Choice(get_args(Turning)), help="How parts may be turned."),
+    )
+
+    @functools.wraps(command)
+    def stocked(**given: Any) -> None:
+        said = {key: given.pop(option) for option, key in _KEYS.items()}
+        command(**given, changes={key: value for key, value in said.items() if value not in (None, ())})
+
+    return functools.reduce(lambda made, add: add(made), reversed(arguments), stocked)
+
+
+_KEYS = {"sheet": "sheets", "gap": "gap", "trim": "trim", "kerf": "kerf", "turning": "turning"}
+"""Keys of the `[stock]` table by the options that set them."""
+
+
+@click.command()
+@_stocked
+@click.argument("instance", type=click.Path(path_type=Path))
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="Layout file (JSON) to write.")
+@click.option("--effort", type=EFFORT, default="normal", show_default=True)
+@click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; they change the time, not the layout.")
+@click.option("--sheets", type=click.Path(path_type=Path), help="Folder to write the sheets to, as DXF.")
+@click.option("--plan", type=click.Path(path_type=Path), help="Cutting plan (PDF) to write.")
+@click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
+@click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
+@click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
+@click.option("--quiet", is_flag=True, help="No progress.")
+def nest(
+    instance: Path,
+    out: Path,
+    effort: Effort,
+    time_limit: float | None,
+    jobs: int | None,
+    quiet: bool,
+    **files: Any,
+) -> None:
+    """Nest a part list of any origin on stock sheets: JSON, CSV, a folder of drawings (DXF), or a delivery."""
+    stop, tell = Stop(time_limit), _say_nothing if quiet else warn
+    catch_signals(Interrupting(stop))
+    tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
+    asked = isomould.NestFiles(**files)
+    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set(), tell), jobs, asked, _remark)
+    say(
+        f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
+        f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
+    )
+    if stop.interrupted:
+        sys.exit(INTERRUPTED)
+
+
+def _remark(note: Note) -> None:
+    warn(f"note: {note}")
+
+
+def _tell_sheets(told: set[int], tell: Callable[[str], None]) -> Callable[[int, int, int, int], None]:
+    """Give a progress that tells every number of sheets once."""
+
+    def progress(_: int, __: int, sheets: int, bound: int) -> None:
+        if sheets not in told:
+            told.add(sheets)
+            above = f", at least {bound} needed, {sheets - bound} above that" if bound > 0 else ""
+            tell(f"{sheets} sheets{above}")
+
+    return progress
+
+
+def _say_nothing(_: str) -> None:
+    """Tell nobody."""
+
+
+class Interrupting:
+    """What a signal does to a nest: the first ends the search, one that comes a second or more later ends all."""
+
+    def __init__(self, stop: Stop) -> None:
+        self.stop, self.since = stop, 0.0
+
+    def __call__(self, *_: Any) -> None:
+        """Handle a signal."""
+        # Those who start us may send a signal twice, to us and to our group.
+        if self.stop.interrupted and time.monotonic() - self.since > 1:
+            raise KeyboardInterrupt
+        self.since = self.since if self.stop.interrupted else time.monotonic()
+        self.stop.interrupt()
