@@ -6,6 +6,7 @@ from itertools import permutations, product
 import numpy as np
 import pytest
 import shapely
+from bar_examples import DEPTH, plate
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,22 +16,9 @@ from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Member
 from isomould.nesting.settings import BarStock, StockSettings
 
-DEPTH = 200.0
 STOCK = StockSettings(
     bars=(BarStock(section="FL200*12", length=6000),), bar_kerf=3, bar_trim=10, bar_ends="head-to-tail"
 )
-
-
-def plate(length: float, left: float, right: float, tongue: float = 0.0) -> tuple[tuple[float, float], ...]:
-    """A plate with slanted ends: `left` and `right` are x at the top less x at the bottom, tongues lower than it."""
-    h = DEPTH / 2
-    t = h - tongue
-    start, end = abs(left) / 2, length - abs(right) / 2
-    outer = [(start + y * left / DEPTH, y) for y in (t, -t)], [(end + y * right / DEPTH, y) for y in (-t, t)]
-    inner = [(start + 30, -h), (end - 30, -h)], [(end - 30, h), (start + 30, h)]
-    points = [*outer[0], *inner[0], *outer[1], *inner[1]] if tongue else [*outer[0], *outer[1]]
-    low = min(x for x, _ in points)
-    return tuple((round(x - low, 3), y) for x, y in points)
 
 
 def member(mark: int | str, outline: tuple[tuple[float, float], ...], quantity: int = 1) -> Member:
@@ -110,53 +98,6 @@ def test_saw_lines_hold_the_outline_and_touch_it() -> None:
     assert this.runs == (-20000, 14000)
     assert this.mean / 1000 == pytest.approx(1000 - 17, abs=3e-3)
     assert square(5).mean == 5
-
-
-plates = st.builds(
-    plate, st.integers(300, 2900).map(float), st.integers(-30, 30), st.integers(-30, 30), st.sampled_from([0.0, 3.0])
-)
-
-
-def random_bars(outlines: list[tuple[tuple[float, float], ...]], counts: list[int], stock: StockSettings) -> None:
-    members = [member(k, outline, n) for k, (outline, n) in enumerate(zip(outlines, counts, strict=False))]
-    layout = nest_bars(members, stock)
-    assert check_bars(members, stock, layout) == ()
-    boxed = nest_bars(members, stock.model_copy(update={"bar_ends": "square"}))
-    if not layout.unplaced and not boxed.unplaced:
-        assert boxed.price >= layout.price_bound
-        assert layout.bound <= len(boxed.bars)
-
-
-STOCKS = st.builds(
-    lambda kinds, kerf, trim: StockSettings(
-        bars=tuple(BarStock(section="FL200*12", length=x, price=p, quantity=q) for x, p, q in kinds),
-        bar_kerf=kerf,
-        bar_trim=trim,
-        bar_ends="head-to-tail",
-    ),
-    st.lists(
-        st.tuples(st.integers(3000, 9000), st.sampled_from([0, 7, 11.5, 12]), st.sampled_from([None, 0, 1, 3])),
-        min_size=1,
-        max_size=3,
-        unique_by=lambda kind: kind[0],
-    ),
-    st.sampled_from([0.0, 3.0, 2.5]),
-    st.sampled_from([0.0, 15.0]),
-)
-MANY = (st.lists(plates, min_size=1, max_size=6), st.lists(st.integers(1, 6), min_size=6, max_size=6), STOCKS)
-
-
-@settings(max_examples=12, deadline=None)
-@given(*MANY)
-def test_every_slanted_layout_is_proved(outlines, counts, stock) -> None:
-    random_bars(outlines, counts, stock)
-
-
-@pytest.mark.long
-@settings(max_examples=10_000, deadline=None)
-@given(*MANY)
-def test_ten_thousand_slanted_layouts_are_proved(outlines, counts, stock) -> None:
-    random_bars(outlines, counts, stock)
 
 
 def moved(layout: BarLayout, **change: object) -> BarLayout:

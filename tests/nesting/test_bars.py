@@ -2,13 +2,10 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from isomould.errors import Refused
 from isomould.nesting.bar_checker import check_bars
@@ -23,67 +20,6 @@ MEMBERS = (
     Member("M3", "P", 5980.0),
 )
 LAYOUT = nest_bars(MEMBERS, STOCK)
-
-
-KINDS = st.tuples(st.integers(4100, 9000), st.sampled_from([0, 7, 11.5, 12]), st.sampled_from([None, 0, 1, 3]))
-
-
-@settings(max_examples=100, deadline=None)
-@given(
-    st.lists(st.tuples(st.sampled_from("PQ"), st.integers(100, 4000), st.integers(1, 9)), max_size=6),
-    st.lists(KINDS, min_size=1, max_size=3, unique_by=lambda kind: kind[0]),
-    st.sampled_from([0.0, 3.0, 2.5]),
-    st.sampled_from([0.0, 15.0]),
-)
-def test_every_layout_is_proved(
-    rows: list[tuple[str, int, int]], kinds: list[tuple[int, float, int | None]], kerf: float, trim: float
-) -> None:
-    members = [Member(k, section, length + k / 8, count) for k, (section, length, count) in enumerate(rows)]
-    bars = [BarStock(section=s, length=x, price=p, quantity=q) for s in "PQ" for x, p, q in kinds]
-    stock = StockSettings(bars=tuple(bars), bar_kerf=kerf, bar_trim=trim)
-    layout = nest_bars(members, stock)
-    assert check_bars(members, stock, layout) == ()
-    assert not layout.unplaced or all(quantity is not None for _, _, quantity in kinds)
-
-
-def least_cost(sizes: list[int], kinds: list[tuple[int, int, int | None]]) -> tuple[int, int] | None:
-    """Try every way to cut the pieces: the least cost, and bars; None if there are too few bars."""
-    if not sizes:
-        return 0, 0
-    found: list[tuple[int, int]] = []
-    others = range(1, len(sizes))
-    for k, (room, cost, quantity) in enumerate(kinds):
-        left = [*kinds[:k], (room, cost, None if quantity is None else quantity - 1), *kinds[k + 1 :]]
-        groups = (group for many in range(len(sizes)) for group in combinations(others, many))
-        for group in groups if quantity != 0 else ():
-            if sizes[0] + sum(sizes[i] for i in group) <= room:
-                rest = least_cost([sizes[i] for i in others if i not in group], left)
-                found += [(rest[0] + cost, rest[1] + 1)] if rest else []
-    return min(found, default=None)
-
-
-@settings(max_examples=100, deadline=None)
-@given(
-    st.lists(st.integers(20, 90), min_size=1, max_size=6),
-    st.lists(
-        st.tuples(st.integers(90, 160), st.integers(1, 9), st.sampled_from([None, None, 1, 2])),
-        min_size=1,
-        max_size=2,
-        unique_by=lambda kind: kind[0],
-    ),
-)
-def test_few_pieces_cost_the_least_and_bounds_hold(
-    lengths: list[int], kinds: list[tuple[int, int, int | None]]
-) -> None:
-    bars = tuple(BarStock(section="P", length=room, price=cost, quantity=many) for room, cost, many in kinds)
-    members = [Member(k, "P", float(length)) for k, length in enumerate(lengths)]
-    layout = nest_bars(members, StockSettings(bars=bars, bar_kerf=0))
-    least = least_cost(sorted(lengths, reverse=True), kinds)
-    if least is not None and not layout.unplaced:
-        fewest = least_cost(sorted(lengths, reverse=True), [(room, 1, many) for room, _, many in kinds])
-        assert layout.price_bound <= least[0] <= layout.price
-        assert fewest is not None
-        assert layout.bound <= fewest[0]
 
 
 def test_pieces_fill_a_bar_to_the_last_kerf() -> None:
@@ -189,6 +125,12 @@ def test_heap_shrinks_until_a_bar_is_saved() -> None:
 def test_member_longer_than_every_bar_is_refused() -> None:
     with pytest.raises(Refused, match="member M9: needs a bar of 6020 mm"):
         nest_bars([Member("M9", "P", 6000.0)], STOCK)
+
+
+def test_bars_of_one_length_need_one_entry() -> None:
+    bars = (BarStock(section="P", length=6000, price=90), BarStock(section="P", length=6000, quantity=2))
+    with pytest.raises(ValueError, match="two stock bars of P are 6000 mm long; one entry"):
+        StockSettings(bars=bars)
 
 
 def test_section_without_bars_is_refused() -> None:

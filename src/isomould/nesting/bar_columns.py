@@ -7,9 +7,8 @@ from typing import Any
 
 import highspy
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
 
-from isomould.arrays import Bools, Floats, Ints
+from isomould.arrays import Bools, Floats
 from isomould.nesting.bar_ladder import Ladder
 from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
@@ -22,12 +21,6 @@ PRIMAL = 4
 
 SLIGHT = 1e-6
 """Of costs."""
-
-BRANCHES = 50
-"""Branches that whole numbers of patterns may take."""
-
-CHOICE = 400
-"""Patterns among which whole numbers are chosen, those that gain the most."""
 
 
 @dataclass(eq=False)
@@ -124,12 +117,12 @@ def _ask(programme: Programme, need: Need) -> None:
     lower = np.concatenate([need.counts.astype(float), np.full(kinds, -highspy.kHighsInf)])
     upper = np.concatenate([endless, need.limits.astype(float)])
     programme.solver.changeRowsBounds(sizes + kinds, np.arange(sizes + kinds, dtype=np.int32), lower, upper)
-    most = np.concatenate([endless, np.where(_fits(programme, need), highspy.kHighsInf, 0.0)])
+    most = np.concatenate([endless, np.where(fits(programme, need), highspy.kHighsInf, 0.0)])
     columns = np.arange(len(most), dtype=np.int32)
     programme.solver.changeColsBounds(len(most), columns, np.zeros(len(most)), most)
 
 
-def _fits(programme: Programme, need: Need) -> Bools:
+def fits(programme: Programme, need: Need) -> Bools:
     """Tell of every pattern whether it takes no more than what is left."""
     return np.array([not (pattern.takes > need.counts).any() for pattern in programme.patterns], dtype=np.bool_)
 
@@ -140,35 +133,3 @@ def _solve(programme: Programme, need: Need) -> Shares:
     dual, cost = np.array(found.row_dual), programme.solver.getInfo().objective_function_value
     uses = np.array(found.col_value)[sizes:]
     return Shares(cost, uses, np.maximum(dual[:sizes], 0.0), np.maximum(-dual[sizes:], 0.0))
-
-
-def choose_whole(programme: Programme, need: Need, shares: Shares) -> list[Pattern]:
-    """Give the cheapest bars of the best known patterns that cover a need, as far as few branches tell; or none."""
-    fitting = [pattern for pattern, fits in zip(programme.patterns, _fits(programme, need), strict=True) if fits]
-    gains = [float(p.takes @ shares.worth - programme.costs[p.kind] - shares.tolls[p.kind]) for p in fitting]
-    patterns = [fitting[k] for k in np.argsort(-np.array(gains), kind="stable")[:CHOICE]]
-    if not patterns:
-        return []
-    takes = np.array([pattern.takes for pattern in patterns]).T
-    kinds = np.array([[pattern.kind == kind for pattern in patterns] for kind in range(len(need.limits))])
-    rows = [LinearConstraint(takes, need.counts, np.inf), LinearConstraint(kinds.astype(float), 0, need.limits)]
-    found = milp(
-        programme.costs[[pattern.kind for pattern in patterns]],
-        integrality=np.ones(len(patterns), dtype=np.int64),
-        bounds=Bounds(0, np.inf),
-        constraints=rows,
-        options={"node_limit": BRANCHES, "mip_rel_gap": 0.0},
-    )
-    if found.x is None:
-        return []
-    return _trimmed(np.repeat(np.arange(len(patterns)), np.rint(found.x).astype(np.int64)), patterns, need)
-
-
-def _trimmed(chosen: Ints, patterns: Sequence[Pattern], need: Need) -> list[Pattern]:
-    """Take away what patterns cut too much."""
-    left, bars = need.counts, list[Pattern]()
-    for k in chosen.tolist():
-        takes = np.minimum(patterns[k].takes, left)
-        left = left - takes
-        bars += [Pattern(patterns[k].kind, takes)] if takes.any() else []
-    return bars

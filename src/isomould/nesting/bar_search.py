@@ -10,11 +10,12 @@ import numpy as np
 
 from isomould.arrays import Ints
 from isomould.nesting.bar_bound import ROUNDS, BarBound, Demand, Hint, Proof, least_bars, length_bound, linear_bound
-from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, choose_whole, generate, make_programme, whole
+from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, generate, make_programme, whole
 from isomould.nesting.bar_greedy import first_fit, largest_first
 from isomould.nesting.bar_ladder import Ladder, Ladders, exact_ladder
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, cost_of, less, merit, sum_of
 from isomould.nesting.bar_squeeze import pack, squeeze
+from isomould.nesting.bar_whole import Fits, choose_best, choose_whole
 
 MOST = 2_000
 """Different sizes up to which patterns pay."""
@@ -38,12 +39,22 @@ FEWER = 1e-4
 """What a bar costs beside its price, in costs of the dearest."""
 
 
-def find_bars(rack: BarRack, need: Need, proof: Proof | None = None) -> tuple[list[Pattern], BarBound]:
+def find_bars(
+    rack: BarRack, need: Need, proof: Proof | None = None, fits: Fits | None = None
+) -> tuple[list[Pattern], BarBound]:
     """Cut a need from bars at the least cost; pieces may be left if there are too few bars.
 
-    Bounds hold for the rack of the proof if it is another.
+    Bounds hold for the rack of the proof if it is another; then `fits` knows of a few pieces what fits truly.
     """
     proof = proof or Proof(rack)
+    patterns, bound = _find(rack, need, proof)
+    if fits is not None and not _meets(rack, patterns, need, bound):
+        patterns = _best(rack, [patterns, choose_best(proof.rack, need, fits)])
+    placed = Need(sum_of(rack, patterns), need.limits)
+    return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns)
+
+
+def _find(rack: BarRack, need: Need, proof: Proof) -> tuple[list[Pattern], BarBound]:
     bound = length_bound(proof, need.counts)
     patterns = _best(rack, [first_fit(rack, need), largest_first(rack, need)])
     if _meets(rack, patterns, need, bound):
@@ -53,8 +64,7 @@ def find_bars(rack: BarRack, need: Need, proof: Proof | None = None) -> tuple[li
         patterns = _squeezed(rack, patterns, need, bound)
     if not _meets(rack, patterns, need, bound) and len(rack.sizes) <= MOST:
         patterns, bound = _by_columns(proof, ladders, need, patterns, bound)
-    placed = Need(sum_of(rack, patterns), need.limits)
-    return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns)
+    return patterns, bound
 
 
 def _by_columns(
@@ -68,6 +78,8 @@ def _by_columns(
         patterns = _mixed(rack, need, patterns, demand)
     if not _meets(rack, patterns, need, bound):
         patterns = _dive(_counting(programme), partial(ladders, fineness=fineness), need, patterns, bound)
+    if not _meets(rack, patterns, need, bound):
+        patterns = _best(rack, [patterns, choose_best(rack, need)])
     return _squeezed(rack, patterns, need, bound), bound
 
 

@@ -98,6 +98,18 @@ class StockSettings(Settings):
             raise ValueError(message)
         return self
 
+    @model_validator(mode="after")
+    def _bars_have_their_own_lengths(self) -> "StockSettings":
+        names = [(bar.section, bar.length) for bar in self.bars]
+        for section, length in names:
+            if names.count((section, length)) > 1:
+                message = (
+                    f"two stock bars of {section} are {length:g} mm long; one entry for every length and section "
+                    "(a remnant as long as a new bar may be a millimetre shorter)"
+                )
+                raise ValueError(message)
+        return self
+
 
 def allowed_rotations_deg(stock: StockSettings, sheet: SheetStock | None) -> tuple[int, ...]:
     """Give the rotations that parts may take on a sheet (None: on a blank to order), ascending."""
