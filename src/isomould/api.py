@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.delivery.nested import Targets, check_targets, publish_nest
+from isomould.delivery.nested import Targets, check_targets, publish_bars, publish_nest
 from isomould.delivery.pictures import View, design_picture
 from isomould.design import Design, make_design, requests_of
 from isomould.documents.overview import Fact, kit_facts
@@ -17,9 +17,11 @@ from isomould.documents.table import Table
 from isomould.errors import Note, Refused
 from isomould.family import kit_table, make_designs
 from isomould.form.survey import Division, survey
+from isomould.intake.member_list import lists_members, read_member_list
 from isomould.intake.read import Asked, read_part_list
 from isomould.intake.stock import read_stock
-from isomould.nesting.layout import Layout
+from isomould.nesting.bars import nest_bars
+from isomould.nesting.layout import BarLayout, Layout
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
 from isomould.nesting.settings import StockSettings
@@ -144,7 +146,11 @@ def schedule(
 
 
 def verify(
-    folder: str | Path, jobs: int | None = None, sheets: Path | None = None, plan: Path | None = None
+    folder: str | Path,
+    jobs: int | None = None,
+    sheets: Path | None = None,
+    plan: Path | None = None,
+    saw_list: Path | None = None,
 ) -> Certificate:
     """Prove a delivered folder again, or what `nest` wrote, from the files alone.
 
@@ -154,15 +160,19 @@ def verify(
         A delivered folder, or a layout file.
     jobs
         Processes, None for one per core.
-    sheets, plan
-        Of a layout file: the folder of its sheets, its cutting plan.
+    sheets, plan, saw_list
+        Of a layout file: the folder of its sheets, its cutting plan, its saw list.
     """
     path = Path(folder)
-    if path.is_dir() and (sheets or plan):
+    if path.is_dir() and (sheets or plan or saw_list):
         way_out = "Give the layout file instead of the folder."
-        raise Refused("E-VERIFY", "--sheets, --plan", f"beside the folder {path}", "a layout file of nest", way_out)
+        raise Refused(
+            "E-VERIFY", "--sheets, --plan, --saw-list", f"beside the folder {path}", "a layout file of nest", way_out
+        )
     with workers(jobs) as spread:
-        return verify_nest(path, sheets, plan, spread) if path.is_file() else verify_folder(path, spread=spread)
+        if path.is_file():
+            return verify_nest(path, sheets, plan, saw_list, spread)
+        return verify_folder(path, spread=spread)
 
 
 @dataclass(frozen=True)
@@ -178,7 +188,9 @@ class NestFiles:
     sheets
         A folder for the sheets as DXF.
     plan
-        A PDF file for the cutting plan.
+        A PDF file for the cutting plan, or of members for the saw list.
+    saw_list
+        A file for the saw list of members, `.csv` or `.xlsx`.
     overwrite
         Whether a folder of earlier sheets may be replaced.
     units, layer
@@ -189,6 +201,7 @@ class NestFiles:
     changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
     sheets: Path | None = None
     plan: Path | None = None
+    saw_list: Path | None = None
     overwrite: bool = False
     units: LengthUnit | None = None
     layer: str = "CUT"
@@ -203,13 +216,15 @@ def nest(
     jobs: int | None = None,
     files: NestFiles | None = None,
     remark: Callable[[Note], None] | None = None,
-) -> Layout:
+) -> Layout | BarLayout:
     """Nest a part list of any origin and write the layout as JSON, and sheets and cutting plan where asked for.
+
+    A list of members is nested on bars: its layout, and the saw list where asked for. That search knows no effort.
 
     Parameters
     ----------
     instance
-        A part list (JSON, CSV), a folder of drawings, or a delivered folder, whose panels are nested.
+        A list of parts or of members (JSON, CSV), a folder of drawings, or a delivered folder, whose panels are nested.
     out
         The layout file. It and the others are proved before they are published, each whole or not at all.
     effort
@@ -233,9 +248,13 @@ def nest(
         If what was written does not show the layout; nothing is published.
     """
     stop, files = stop or Stop(), files or NestFiles()
-    targets = Targets(Path(out), files.sheets, files.plan, files.overwrite)
-    check_targets(targets)
+    targets = Targets(Path(out), files.sheets, files.plan, files.saw_list, files.overwrite)
+    members = lists_members(Path(instance))
+    check_targets(targets, "members" if members else "parts")
     stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
+    if members:
+        _refuse_time_limit(stop)
+        return _nest_members(Path(instance), stock, targets, files.units, remark or _ignore)
     given = read_part_list(Path(instance), Asked(stock, files.units, files.layer))
     for note in given.notes:
         (remark or _ignore)(note)
@@ -243,6 +262,23 @@ def nest(
     layout = replace(layout, status="interrupted") if stop.interrupted else layout
     with workers(jobs) as spread:
         publish_nest(targets, layout, given, spread)
+    return layout
+
+
+def _refuse_time_limit(stop: Stop) -> None:
+    if stop.seconds is not None:
+        way_out = "Leave it out; Ctrl-C ends a search that takes too long."
+        raise Refused("E-OUT-12", "--time-limit", f"{stop.seconds:g} s for a list of members", "parts only", way_out)
+
+
+def _nest_members(
+    path: Path, stock: Mapping[str, Any], targets: Targets, units: LengthUnit | None, remark: Callable[[Note], None]
+) -> BarLayout:
+    given, notes = read_member_list(path, stock, units)
+    for note in notes:
+        remark(note)
+    layout = nest_bars(given.members, given.stock)
+    publish_bars(targets, layout, given)
     return layout
 
 

@@ -120,9 +120,10 @@ def _built(built: isomould.Built) -> None:
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.option("--sheets", type=click.Path(path_type=Path), help="Of a layout file: the folder of its sheets.")
 @click.option("--plan", type=click.Path(path_type=Path), help="Of a layout file: its cutting plan (PDF).")
-def verify(folder: Path, sheets: Path | None, plan: Path | None) -> None:
+@click.option("--saw-list", type=click.Path(path_type=Path), help="Of a layout file of bars: its saw list.")
+def verify(folder: Path, **nested: Any) -> None:
     """Prove a delivered folder, or the layout file of a nest, again from its files alone."""
-    certificate = isomould.verify(folder, sheets=sheets, plan=plan)
+    certificate = isomould.verify(folder, **nested)
     passed = sum(check.status == "pass" for check in certificate.checks)
     click.echo(f"{folder}: {passed} checks passed, {len(certificate.failures)} failed")
     for check in certificate.failures:

@@ -12,9 +12,11 @@ import click
 import isomould
 from isomould.console import EFFORT, INTERRUPTED, catch_signals, say, warn
 from isomould.errors import Note
-from isomould.intake.stock import length_of, sheet_of
+from isomould.intake.member_list import lists_members
+from isomould.intake.stock import bar_of, length_of, sheet_of
+from isomould.nesting.layout import BarLayout, Layout
 from isomould.nesting.search import Effort
-from isomould.nesting.settings import Turning
+from isomould.nesting.settings import BarEnds, Turning
 from isomould.nesting.stop import Stop
 from isomould.units import LengthUnit
 
@@ -35,6 +37,7 @@ class _Quantity(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] 
 
 
 _LENGTH, _SHEET = _Quantity("length", length_of), _Quantity("width x height", sheet_of)
+_BAR = _Quantity("section=length", bar_of)
 
 
 def _stocked(command: Callable[..., None]) -> Callable[..., None]:
@@ -46,6 +49,10 @@ def _stocked(command: Callable[..., None]) -> Callable[..., None]:
         click.option("--trim", type=_LENGTH, help="Lost along every edge of a sheet."),
         click.option("--kerf", type=_LENGTH, help="Width of the cut."),
         click.option("--turning", type=click.Choice(get_args(Turning)), help="How parts may be turned."),
+        click.option("--bar", type=_BAR, multiple=True, help="Such as 'FL200*12=6 m', in place of all others."),
+        click.option("--bar-kerf", type=_LENGTH, help="Width of the saw cut."),
+        click.option("--bar-trim", type=_LENGTH, help="Lost at each end of a bar."),
+        click.option("--bar-ends", type=click.Choice(get_args(BarEnds)), help="How slanted ends lie."),
     )
 
     @functools.wraps(command)
@@ -56,7 +63,15 @@ def _stocked(command: Callable[..., None]) -> Callable[..., None]:
     return functools.reduce(lambda made, add: add(made), reversed(arguments), stocked)
 
 
-_KEYS = {"sheet": "sheets", "gap": "gap", "trim": "trim", "kerf": "kerf", "turning": "turning"}
+_KEYS = {
+    "sheet": "sheets",
+    "gap": "gap",
+    "trim": "trim",
+    "kerf": "kerf",
+    "turning": "turning",
+    "bar": "bars",
+    **{f"bar_{key}": f"bar_{key}" for key in ("kerf", "trim", "ends")},
+}
 """Keys of the `[stock]` table by the options that set them."""
 
 
@@ -68,7 +83,8 @@ _KEYS = {"sheet": "sheets", "gap": "gap", "trim": "trim", "kerf": "kerf", "turni
 @click.option("--time-limit", type=click.FloatRange(min=0), help="Stop at the best layout after so many seconds.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; they change the time, not the layout.")
 @click.option("--sheets", type=click.Path(path_type=Path), help="Folder to write the sheets to, as DXF.")
-@click.option("--plan", type=click.Path(path_type=Path), help="Cutting plan (PDF) to write.")
+@click.option("--plan", type=click.Path(path_type=Path), help="Cutting plan (PDF) to write; of members the saw list.")
+@click.option("--saw-list", type=click.Path(path_type=Path), help="Saw list of members to write, .csv or .xlsx.")
 @click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
 @click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
 @click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
@@ -82,18 +98,25 @@ def nest(
     quiet: bool,
     **files: Any,
 ) -> None:
-    """Nest a part list of any origin on stock sheets: JSON, CSV, a folder of drawings (DXF), or a delivery."""
+    """Nest parts of any origin on sheets, members on bars: JSON, CSV, a folder of drawings (DXF), or a delivery."""
     stop, tell = Stop(time_limit), _say_nothing if quiet else warn
-    catch_signals(Interrupting(stop))
-    tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
+    if lists_members(instance):
+        tell(f"nesting {instance}")
+    else:
+        catch_signals(Interrupting(stop))
+        tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
     asked = isomould.NestFiles(**files)
     layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set(), tell), jobs, asked, _remark)
-    say(
-        f"{len(layout.sheets)} sheets, lower bound {layout.bound} ({layout.bound_kind}), "
-        f"yield {layout.yield_percent:.2f} %, status {layout.status}: {out}"
-    )
+    say(f"{_worth(layout)}, status {layout.status}: {out}")
     if stop.interrupted:
         sys.exit(INTERRUPTED)
+
+
+def _worth(layout: Layout | BarLayout) -> str:
+    bound = f"lower bound {layout.bound} ({layout.bound_kind})"
+    if isinstance(layout, BarLayout):
+        return f"{len(layout.bars)} bars, {bound}"
+    return f"{len(layout.sheets)} sheets, {bound}, yield {layout.yield_percent:.2f} %"
 
 
 def _remark(note: Note) -> None:

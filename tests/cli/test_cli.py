@@ -218,6 +218,25 @@ def test_the_second_interrupt_ends_a_nest_at_once(monkeypatch):
         interrupting(signal.SIGTERM, None)
 
 
+def test_members_are_nested_on_bars(tmp_path):
+    """By options alone, with saw lists; what lists of members and of parts cannot give is refused."""
+    (tmp_path / "m.csv").write_text("section;mark;qty;length\nFL200*12;M1;7;1505,5\nRHS 50x3;M2;4;900\n")
+    bars = ("--bar", "FL200*12=6 m", "--bar", "RHS 50x3=3000", "--bar-kerf", "2", "--bar-trim", "5mm")
+    command = ("nest", "m.csv", "--out", "layout.json", *bars)
+    nested = run(*command, "--saw-list", "saw.csv", "--plan", "saw.pdf", folder=tmp_path)
+    assert (nested.returncode, "5 bars, lower bound" in nested.stdout) == (0, True), nested.stderr
+    layout = json.loads((tmp_path / "layout.json").read_text())
+    assert (layout["kind"], layout["status"], len(layout["bars"])) == ("bars", "complete", 5)
+    assert (tmp_path / "saw.csv").read_text().count("\n") == 12
+    proved = run("verify", "layout.json", "--saw-list", "saw.csv", "--plan", "saw.pdf", folder=tmp_path)
+    assert (proved.returncode, "3 checks passed" in proved.stdout) == (0, True)
+    for wrong, word in ((("--sheets", "cut"), "--sheets"), (("--saw-list", "saw.pdf"), "--saw-list"),
+                        (("--time-limit", "1"), "--time-limit"), (("--bar", "RHS 50x3=3000"), "M1"),
+                        (("--bar", "6 m"), "--bar")):  # fmt: skip
+        refused = run(*(command if "bar" not in wrong[0] else command[:4]), *wrong, folder=tmp_path)
+        assert (refused.returncode, word in refused.stderr) == (2, True), refused.stderr
+
+
 def test_quick_stock_by_options(tmp_path):
     """Options take the place of the stock file's keys; what they cannot be is said."""
     (tmp_path / "parts.csv").write_text("mark,qty,a,b,h,ol,orr\nP1,6,900,820,700,40,40\n")

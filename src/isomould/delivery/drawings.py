@@ -14,6 +14,7 @@ from isomould.documents.shop.page import Book
 from isomould.documents.shop.panel_sheet import panel_sheet
 from isomould.documents.shop.panel_view import PanelDrawing
 from isomould.documents.shop.rows import length_text, schedule_rows
+from isomould.documents.shop.saw_list import saw_list
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.documents.table import Table
 from isomould.documents.title_block import heading
@@ -60,6 +61,13 @@ def write_cutting_plan(path: Path, delivery: Delivery) -> None:
     if project.deliver.drawings:
         plan = cutting_plan(_stationery(project), cutting.sheets, cutting.stock)
         write_pdf(path, plan, heading(project.project))
+
+
+def write_saw_list(path: Path, delivery: Delivery) -> None:
+    """Write the saw list of the bars beside their table, where drawings are asked for."""
+    project, cutting = delivery.design.project, delivery.cutting
+    if project.deliver.drawings and cutting.bars:
+        write_pdf(path, saw_list(_stationery(project), cutting.bars, cutting.stock), heading(project.project))
 
 
 def _stationery(project: Project) -> Stationery:

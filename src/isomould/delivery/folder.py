@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from isomould.delivery.drawings import write_cutting_plan, write_drawings
+from isomould.delivery.drawings import write_cutting_plan, write_drawings, write_saw_list
 from isomould.delivery.goods import Delivery
 from isomould.delivery.handling import write_labels
 from isomould.delivery.machine import write_machine_files, write_nc1_files, write_setting_out, write_strips
@@ -24,6 +24,7 @@ def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
     write_bars(folder / "bars" / "bars.csv", delivery)
     write_drawings(folder / "drawings", delivery, spread)
     write_cutting_plan(folder / "sheets" / "cutting-plan.pdf", delivery)
+    write_saw_list(folder / "bars" / "saw-list.pdf", delivery)
     write_strips(folder, delivery)
     write_labels(folder / "labels.pdf", delivery)
     write_setting_out(folder / "setting-out.dxf", delivery)

@@ -59,6 +59,7 @@ TABLES: dict[str, tuple[str, ...]] = {
         "sheets": """sheet stock parts part_area_m2 yield_percent cut_length_mm cuts offcut_width_mm
             offcut_height_mm price file""",
         "bars": "bar stock pieces used_mm offcut_mm price",
+        "saw_list": "bar stock cut mark location position_mm length_mm bar_turned offcut_mm",
         "strips": "strip along pieces length_mm width_mm sagitta_mm area_m2 file",
         "families": """family parallels generatrices nodes_count node_classes interior_node_classes members_count
             member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
@@ -92,8 +93,8 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
     """quantity quantity_before valence slots facets fins holes threads arm base_holes i j first_corner parts cuts
-    pieces count parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes members_count
-    member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
+    cut pieces count parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes
+    members_count member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
 """In the cost a quantity is whatever is paid for, not a number of pieces."""
@@ -108,6 +109,7 @@ _TOTALS: dict[str, frozenset[str]] = {
     "fittings": frozenset(("quantity", "total_mass_kg")),
     "sheets": frozenset(("parts", "part_area_m2", "cut_length_mm", "cuts", "price")),
     "bars": frozenset(("pieces", "used_mm", "offcut_mm", "price")),
+    "saw_list": frozenset(("length_mm", "offcut_mm")),
     "cost": frozenset(("amount",)),
     "kit": frozenset(("quantity",)),
 }

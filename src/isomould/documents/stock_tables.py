@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from isomould.documents.live import RateCell
-from isomould.documents.table import Table, make_live_table
+from isomould.documents.table import Table, make_live_table, make_table
 from isomould.nesting.layout import BarLayout, Layout, Placement, Sheet
 from isomould.nesting.scoring import score_lines
 from isomould.nesting.settings import StockSettings
@@ -54,6 +54,23 @@ def bar_table(layout: BarLayout, stock: StockSettings) -> Table:
         "price": [price[bar.section, bar.length] for bar in layout.bars],
     }
     return make_live_table("bars", data)
+
+
+def saw_table(layout: BarLayout) -> Table:
+    """Give one row per cut, bar by bar from the left end; the offcut of a bar stands in the row of its last cut."""
+    rows = [(bar, number, cut) for bar in layout.bars for number, cut in enumerate(bar.cuts, start=1)]
+    data: Columns = {
+        "bar": [bar.id for bar, _, _ in rows],
+        "stock": [bar_name(bar.section, bar.length) for bar, _, _ in rows],
+        "cut": [number for _, number, _ in rows],
+        "mark": [str(cut.id) for _, _, cut in rows],
+        "location": [cut.location or "" for _, _, cut in rows],
+        "position_mm": [cut.start for _, _, cut in rows],
+        "length_mm": [cut.length for _, _, cut in rows],
+        "bar_turned": [cut.turned for _, _, cut in rows],
+        "offcut_mm": [bar.rest if number == len(bar.cuts) else None for bar, number, _ in rows],
+    }
+    return make_table("saw_list", data)
 
 
 def bar_name(section: str, length: float) -> str:

@@ -8,18 +8,53 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
+from isomould.errors import Note
 from isomould.intake.numbers import decimal_sign, to_count, to_number
 from isomould.nesting.instance import read_text
 from isomould.nesting.part_rows import TRAPEZOID, refuse, show
 from isomould.units import MM_PER_UNIT, LengthUnit
 
 _HEADER = re.compile(r"(?P<name>.*?)[ _]*(?:[(\[ _])(?P<unit>mm|cm|m|in|ft)[)\]]?")
-_OTHER_NAMES = {
-    "mark": "id", "part": "id", "qty": "quantity", "pieces": "quantity", "count": "quantity", "height": "h",
-    "outline": "points", "file": "files",
-}  # fmt: skip
-_KNOWN = {"id", "quantity", "row", "points", "files", *TRAPEZOID}
+_IDS = {"mark": "id", "part": "id", "qty": "quantity", "pieces": "quantity", "count": "quantity"}
 _SEPARATORS = (";", "\t", ",")
+
+
+@dataclass(frozen=True)
+class Words:
+    """What the columns of a table may be called: those that have to be there, numbers, other texts, other names."""
+
+    required: tuple[str, ...]
+    numbers: tuple[str, ...]
+    texts: tuple[str, ...]
+    others: Mapping[str, str]
+
+    @property
+    def known(self) -> set[str]:
+        """All columns that mean something."""
+        return {*self.required, *self.numbers, *self.texts}
+
+
+PARTS = Words(
+    ("id", "quantity"),
+    TRAPEZOID,
+    ("row", "points", "files"),
+    {**_IDS, "height": "h", "outline": "points", "file": "files"},
+)
+MEMBERS = Words(
+    ("section", "id", "quantity", "length"),
+    ("length", "depth", "end_angle_start", "end_angle_end"),
+    (),
+    {
+        **_IDS,
+        "profile": "section",
+        "cut_length": "length",
+        **{
+            f"end_angle_{end}_{unit}": f"end_angle_{end}"
+            for end in ("start", "end")
+            for unit in ("deg", "(deg)", "(°)")
+        },
+    },
+)
 
 
 @dataclass(frozen=True)
@@ -40,9 +75,20 @@ class Sheet:
     sign: str
     ignored: tuple[str, ...]
 
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """Name the columns that are not read; those of our own schedules are known to say more than a nest asks."""
+        if not self.ignored or Path(self.file).parent.name == "tables":
+            return ()
+        return (Note("W-PART-COLUMNS", self.file, f"not read: {', '.join(self.ignored[:12])}"),)
+
     def number(self, line: Line, column: str) -> float:
         """Give a cell as a length, mm."""
         return to_number(line.cells[column], self.sign, self.factors[column], f"{line.field}: {column}")
+
+    def angle(self, line: Line, column: str) -> float:
+        """Give a cell as an angle in degrees, 0 where it is blank or there is no such column."""
+        return to_number(line.cells.get(column) or "0", self.sign, 1.0, f"{line.field}: {column}")
 
     def quantity(self, line: Line) -> int:
         """Give the pieces of a row."""
@@ -62,7 +108,7 @@ class Sheet:
         return [to_number(one.strip().rstrip(","), sign, self.factors["points"], field) for one in numbers]
 
 
-def read_sheet(path: Path, units: LengthUnit | None, required: Sequence[str]) -> Sheet:
+def read_sheet(path: Path, units: LengthUnit | None, words: Words) -> Sheet:
     """Read a CSV file with a heading in its first line.
 
     Parameters
@@ -71,8 +117,8 @@ def read_sheet(path: Path, units: LengthUnit | None, required: Sequence[str]) ->
         In UTF-8, with or without a byte order mark; cells separated by commas, semicolons or tabs.
     units
         Of columns whose heading has none; mm by default.
-    required
-        Columns that have to be there.
+    words
+        What its columns may be.
 
     Raises
     ------
@@ -82,16 +128,23 @@ def read_sheet(path: Path, units: LengthUnit | None, required: Sequence[str]) ->
     text, file = read_text(path, "a CSV file in UTF-8"), str(path)
     separator = _separator(text, file)
     rows = _rows(text, separator, file)
-    heading = [_meaning(cell) for cell in rows[0][1]]
+    heading = [_meaning(cell, words) for cell in rows[0][1]]
     names = [name for name, _ in heading]
-    _refuse_headings(rows[0][1], names, required, file)
+    _refuse_headings(rows[0][1], names, words, file)
     lines = tuple(_line(row, names, f"{file}: line {number}", separator) for number, row in rows[1:])
     if not lines:
         refuse(file, "a heading without rows", "at least one part")
     factors = {name: MM_PER_UNIT[unit or units or "mm"] for name, unit in heading}
-    numbers = [line.cells[name] for line in lines for name in TRAPEZOID if name in line.cells]
-    ignored = tuple(cell for cell, name in zip(rows[0][1], names, strict=True) if name not in _KNOWN)
+    numbers = [line.cells[name] for line in lines for name in words.numbers if name in line.cells]
+    ignored = tuple(cell for cell, name in zip(rows[0][1], names, strict=True) if name not in words.known)
     return Sheet(file, lines, factors, decimal_sign([*numbers, *_blank_pairs(lines)], separator, file), ignored)
+
+
+def heading_names(path: Path, words: Words) -> set[str]:
+    """Tell what the columns of a CSV file are."""
+    text, file = read_text(path, "a CSV file in UTF-8"), str(path)
+    cells = _rows(text.split("\n", 1)[0], _separator(text, file), file)[0][1]
+    return {_meaning(cell, words)[0] for cell in cells}
 
 
 def _blank_pairs(lines: Sequence[Line]) -> list[str]:
@@ -117,26 +170,26 @@ def _rows(text: str, separator: str, file: str) -> list[tuple[int, list[str]]]:
         refuse(f"{file}: line {reader.line_num}", str(fault), "cells as CSV has them, quotes in pairs")
 
 
-def _meaning(cell: str) -> tuple[str, LengthUnit | None]:
+def _meaning(cell: str, words: Words) -> tuple[str, LengthUnit | None]:
     """Tell what a heading means, and its unit if it has one.
 
-    >>> _meaning("Height (mm)"), _meaning("a_cm"), _meaning("Mark")
+    >>> _meaning("Height (mm)", PARTS), _meaning("a_cm", PARTS), _meaning("Mark", PARTS)
     (('h', 'mm'), ('a', 'cm'), ('id', None))
     """
     found = _HEADER.fullmatch(cell.strip().casefold())
     name = (found["name"] if found else cell.strip().casefold()).replace(" ", "_")
     unit: LengthUnit | None = found["unit"] if found else None  # pyright: ignore[reportAssignmentType]
-    return _OTHER_NAMES.get(name, name), unit
+    return words.others.get(name, name), unit
 
 
-def _refuse_headings(cells: Sequence[str], names: Sequence[str], required: Sequence[str], file: str) -> None:
-    for column in required:
+def _refuse_headings(cells: Sequence[str], names: Sequence[str], words: Words, file: str) -> None:
+    for column in words.required:
         if column not in names:
-            near = get_close_matches(column, [*names, *(n for n, other in _OTHER_NAMES.items() if other == column)], 1)
+            near = get_close_matches(column, [*names, *(n for n, other in words.others.items() if other == column)], 1)
             hint = f"Is it {near[0]!r}?" if near else "Add the column."
             refuse(f"{file}: line 1", f"no column {column!r} among {', '.join(cells)}", "a heading with it", hint)
     for name in names:
-        if name in _KNOWN and names.count(name) > 1:
+        if name in words.known and names.count(name) > 1:
             twice = ", ".join(cell for cell, other in zip(cells, names, strict=True) if other == name)
             refuse(f"{file}: line 1", f"{twice}: two columns for {name}", "one", "Rename one of them.")
 

@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 from isomould.arrays import Floats
 from isomould.errors import Note
-from isomould.intake.csv_list import Line, Sheet, read_sheet
+from isomould.intake.csv_list import PARTS, Line, Sheet, read_sheet
 from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
 from isomould.intake.numbers import to_count
 from isomould.intake.part_list import PartList
@@ -61,7 +61,7 @@ def _refuse_units(asked: Asked) -> None:
 
 
 def _read_csv(path: Path, asked: Asked) -> PartList:
-    sheet = read_sheet(path, asked.units, ("id", "quantity"))
+    sheet = read_sheet(path, asked.units, PARTS)
     drawn = {line.field: read_drawn_part(file, asked.layer, asked.units) for line, file in _files(sheet, path.parent)}
     return _made(path.stem, sheet, drawn, asked)
 
@@ -85,7 +85,7 @@ def _made(name: str, sheet: Sheet, drawn: Mapping[str, DrawnPart], asked: Asked)
     rows = [_row(sheet, line, drawn.get(line.field)) for line in sheet.lines]
     parts = read_parts(rows, sheet.file)
     instance = Instance(name, parts, make_stock(asked.stock, sheet.file))
-    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], _ignored(sheet))
+    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], sheet.notes)
 
 
 def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None) -> Row:
@@ -102,17 +102,6 @@ def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None) -> Row:
             line.field, found, "files, or points, or all of a, b, h, ol, orr", "Describe the part in one of these ways."
         )
     return {**table, **{key: sheet.number(line, key) for key in TRAPEZOID}}, line.field
-
-
-def _ignored(sheet: Sheet) -> tuple[Note, ...]:
-    if not sheet.ignored or _is_ours(sheet):
-        return ()
-    return (Note("W-PART-COLUMNS", sheet.file, f"not read: {', '.join(sheet.ignored[:12])}"),)
-
-
-def _is_ours(sheet: Sheet) -> bool:
-    """Tell a schedule of a delivery, whose columns are known to say more than the nesting asks."""
-    return Path(sheet.file).parent.name == "tables"
 
 
 def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes: tuple[Note, ...]) -> PartList:
@@ -155,7 +144,7 @@ def _table_of(folder: Path) -> Path | None:
 
 def _read_listed(table: Path, drawings: Sequence[Path], asked: Asked) -> PartList:
     """Read the drawings that a table counts: named there, or called like the part."""
-    sheet = read_sheet(table, asked.units, ("id", "quantity"))
+    sheet = read_sheet(table, asked.units, PARTS)
     by_name = {path.stem: path for path in drawings}
     named = {line.field: file for line, file in _files(sheet, table.parent)}
     files = {line.field: named.get(line.field) or by_name.get(line.cells["id"]) for line in sheet.lines}

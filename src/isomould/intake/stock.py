@@ -68,3 +68,23 @@ def sheet_of(text: str) -> dict[str, Any]:
         raise ValueError(message)
     width, height = map(length_of, sides)
     return {"name": f"{width:.12g} x {height:.12g}", "width": width, "height": height}
+
+
+def bar_of(text: str) -> dict[str, Any]:
+    """Give the stock bar that an option says: its section and length.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+
+    Examples
+    --------
+    >>> bar_of("FL200*12=6 m")
+    {'section': 'FL200*12', 'length': 6000.0}
+    """
+    section, _, length = text.rpartition("=")
+    if not section.strip():
+        message = f"{text!r} is no bar; section=length, such as 'FL200*12=6 m'"
+        raise ValueError(message)
+    return {"section": section.strip(), "length": length_of(length.strip())}

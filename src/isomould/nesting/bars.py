@@ -80,7 +80,7 @@ def _refuse_long(pieces: Iterable[Piece], kinds: Sequence[Kind], section: str, s
     longest = max((kind.room for kind in kinds), default=-1)
     for piece in pieces:
         if piece.blank.length > longest:
-            found = f"needs a bar of {piece.length + 2 * stock.bar_trim:g} mm with the trim"
+            found = f"needs a bar of {piece.length + 2 * stock.bar_trim:.12g} mm with the trim"
             bars = " or ".join(f"{kind.bar.length:g} mm" for kind in kinds) or "none"
             way_out = "Add a longer bar of this section or divide the member."
             raise Refused("E-NEST-20", f"member {piece.id}", found, f"stock bars of {section}: {bars}", way_out)

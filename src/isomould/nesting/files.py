@@ -9,7 +9,7 @@ import numpy as np
 
 from isomould.arrays import read_only
 from isomould.errors import Refused
-from isomould.nesting.layout import Layout, Offcut, Placement, Sheet, Unplaced
+from isomould.nesting.layout import BarLayout, Layout, Offcut, Placement, Sheet, Unplaced
 
 SCHEMA = 1
 NOTHING_MORE: Mapping[str, Any] = MappingProxyType({})
@@ -50,6 +50,26 @@ def layout_to_json(layout: Layout, more: Mapping[str, Any] = NOTHING_MORE) -> st
         "placements": [_placement(item) for item in layout.placements],
         "unplaced": [_unplaced(item) for item in layout.unplaced],
         "cut_tree": layout.cut_trees or None,
+        **more,
+    }
+    return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def bars_to_json(layout: BarLayout, more: Mapping[str, Any] = NOTHING_MORE) -> str:
+    """Write a layout of bars, and more fields behind its own."""
+    table = {
+        "schema": SCHEMA,
+        "kind": "bars",
+        "status": layout.status,
+        "reproducible": layout.reproducible,
+        "bars": [{**vars(bar), "cuts": [vars(cut) for cut in bar.cuts]} for bar in layout.bars],
+        "bound": layout.bound,
+        "bounds": layout.bounds,
+        "bound_kind": layout.bound_kind,
+        "gap_to_bound": layout.gap_to_bound,
+        "price": layout.price,
+        "price_bound": layout.price_bound,
+        "unplaced": [_unplaced(item) for item in layout.unplaced],
         **more,
     }
     return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"

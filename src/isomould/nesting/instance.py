@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 from pydantic import ValidationError
 
@@ -25,6 +25,7 @@ from isomould.nesting.settings import StockSettings
 
 _STOCK = {"sheets", "gap", "trim", "kerf", "turning", "turn_over", "guillotine"}
 _HEAD = {"name", "sheet", "parts", *_STOCK}
+_NEEDED = {"sheets": ("sheet", "6000x3210"), "bars": ("bar", "'FL200*12=6 m'")}
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -70,13 +71,14 @@ def read_text(path: Path, limit: str) -> str:
 
 def parse_instance(text: str, file: str = "instance", asked: Mapping[str, Any] = NOTHING) -> Instance:
     """Read a part list from a text; `file` is how messages name it."""
-    table = mapping(_parse(text, file), file)
+    table = mapping(parse_json(text, file), file)
     refuse_unknown(table, _HEAD, file)
     name = _text(get(table, "name", file), f"{file}: name")
     return Instance(name, _read_parts(table, file), _read_stock(table, file, asked))
 
 
-def _parse(text: str, file: str) -> object:
+def parse_json(text: str, file: str) -> object:
+    """Read a JSON text strictly: finite numbers, every key once."""
     try:
         return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
     except (ValueError, RecursionError) as fault:
@@ -110,17 +112,18 @@ def _read_stock(table: Mapping[str, Any], file: str, asked: Mapping[str, Any]) -
     return make_stock(given, file)
 
 
-def make_stock(given: Mapping[str, Any], file: str) -> StockSettings:
+def make_stock(given: Mapping[str, Any], file: str, needs: Literal["sheets", "bars"] = "sheets") -> StockSettings:
     """Check what is said about the stock, the keys of a `[stock]` table.
 
     Raises
     ------
     Refused
-        E-NEST-11, naming the field; without any sheet too.
+        E-NEST-11, naming the field; without any sheet, or bar where bars are needed, too.
     """
-    if not given.get("sheets"):
-        way_out = "Give --sheet 6000x3210, or --stock FILE.toml with a [stock] table that has sheets."
-        refuse(f"{file}: sheet", "missing", "at least one stock sheet", way_out)
+    if not given.get(needs):
+        one, example = _NEEDED[needs]
+        way_out = f"Give --{one} {example}, or --stock FILE.toml with a [stock] table that has {needs}."
+        refuse(f"{file}: {one}", "missing", f"at least one stock {one}", way_out)
     try:
         return StockSettings.model_validate(dict(given))
     except ValidationError as fault:

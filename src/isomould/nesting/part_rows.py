@@ -10,7 +10,7 @@ import shapely
 
 from isomould.arrays import Floats, read_only, round_um
 from isomould.errors import Refused
-from isomould.nesting.layout import Id, Part
+from isomould.nesting.layout import Id, Member, Part
 
 LONGEST = 1e6
 """mm; no stock is a kilometre long."""
@@ -35,11 +35,12 @@ def read_parts(rows: Sequence[Row], file: str) -> tuple[Part, ...]:
         E-NEST-11, naming the place in the file, what it says and what it should.
     """
     parts = tuple(_read_part(*row) for row in rows)
-    _refuse_repeated(parts, [field for _, field in rows], file)
+    refuse_repeated(parts, [field for _, field in rows], file)
     return parts
 
 
-def _refuse_repeated(parts: Sequence[Part], fields: Sequence[str], file: str) -> None:
+def refuse_repeated(parts: Sequence[Part | Member], fields: Sequence[str], file: str) -> None:
+    """Refuse ids that are there twice, and more pieces than can be nested."""
     seen = dict[str, str]()
     for part, field in zip(parts, fields, strict=True):
         if str(part.id) in seen:
@@ -53,9 +54,9 @@ def _refuse_repeated(parts: Sequence[Part], fields: Sequence[str], file: str) ->
 def _read_part(row: object, field: str) -> Part:
     table = mapping(row, field)
     refuse_unknown(table, _KEYS, field)
-    mark = _id(get(table, "id", field), f"{field}.id")
-    group = None if table.get("row") is None else _id(table["row"], f"{field}.row")
-    quantity = _quantity(table.get("quantity", 1), f"{field}.quantity")
+    mark = to_id(get(table, "id", field), f"{field}.id")
+    group = None if table.get("row") is None else to_id(table["row"], f"{field}.row")
+    quantity = to_quantity(table.get("quantity", 1), f"{field}.quantity")
     return Part(mark, _outline(table, field), quantity, group)
 
 
@@ -75,7 +76,7 @@ def _polygon(points: object, field: str) -> Floats:
 
 
 def _trapezoid(table: Mapping[str, object], field: str) -> Floats:
-    a, b, h, ol, orr = (_number(get(table, key, field), f"{field}.{key}") for key in TRAPEZOID)
+    a, b, h, ol, orr = (to_number(get(table, key, field), f"{field}.{key}") for key in TRAPEZOID)
     if min(a, h) <= 0 or b < 0:
         refuse(field, f"a = {a:g}, b = {b:g}, h = {h:g} mm", "a and h greater than zero, b not negative")
     if abs(a - ol - orr - b) > 0.0021:
@@ -84,13 +85,15 @@ def _trapezoid(table: Mapping[str, object], field: str) -> Floats:
     return np.array(corners if round(a - orr, 3) != round(ol, 3) else corners[:3])
 
 
-def _quantity(value: object, field: str) -> int:
+def to_quantity(value: object, field: str) -> int:
+    """Give a number of pieces."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         refuse(field, show(value), "a whole number of at least 1")
     return value
 
 
-def _id(value: object, field: str) -> Id:
+def to_id(value: object, field: str) -> Id:
+    """Give the name of a part."""
     if isinstance(value, bool) or not isinstance(value, int | str) or value == "":
         refuse(field, show(value), "a whole number or a text")
     if not str(value).isprintable() or len(str(value)) > 120:
@@ -102,10 +105,11 @@ def numbers(value: object, field: str, count: int) -> list[float]:
     """Give a list of so many finite numbers, mm."""
     if not isinstance(value, list) or len(value) != count:
         refuse(field, show(value), f"a list of {count} numbers")
-    return [_number(item, f"{field}[{k}]") for k, item in enumerate(value)]
+    return [to_number(item, f"{field}[{k}]") for k, item in enumerate(value)]
 
 
-def _number(value: object, field: str) -> float:
+def to_number(value: object, field: str) -> float:
+    """Give a finite number, mm."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         refuse(field, show(value), "a number in mm")
     if not (math.isfinite(value) and abs(value) <= LONGEST):

@@ -140,6 +140,11 @@ class Delivery:
         return read_pdf(self.folder / "sheets" / "cutting-plan.pdf")
 
     @cached_property
+    def saw_plan(self) -> Book:
+        """The saw list on paper, `bars/saw-list.pdf`."""
+        return read_pdf(self.folder / "bars" / "saw-list.pdf")
+
+    @cached_property
     def sheet_texts(self) -> dict[str, tuple[str, ...]]:
         """The texts of the drawings' DXF files by name."""
         paths = self.files("drawings", "dxf")

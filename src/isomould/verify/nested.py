@@ -7,13 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from isomould.verify.certificate import Certificate
-from isomould.verify.checks import nested, nesting, scoring, sheet_marks
+from isomould.verify.checks import nested, nested_bars, nesting, scoring, sheet_marks
+from isomould.verify.checks.nesting import LENGTH
+from isomould.verify.checks.saw_list import paper_faults
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.dxf import Drawing, Entity, Outline, read_dxf
 from isomould.verify.read.layout import Layout, read_layout
 from isomould.verify.read.pdf import Book, read_pdf
-from isomould.verify.read.text import Json
-from isomould.verify.rules import NotApplicable, judge, order
+from isomould.verify.read.text import Json, read_json
+from isomould.verify.rules import Measured, NotApplicable, Rule, judge, order
 from isomould.workers import Spread, one_by_one
 
 _SHARED = {"V31b", "V32", "V33", "V33b", "V35b", "V35c"}
@@ -79,19 +81,51 @@ def _part(part: Json) -> Drawing:
     return Drawing(str(part["id"]), 4, (), (Outline("CUT", outer, np.zeros(len(outer)), True), *inner), tuple(drilled))
 
 
+@dataclass(frozen=True)
+class NestedBars(Delivery):
+    """The files of a nest of members: `folder` is the layout, what was not written is None."""
+
+    saw_file: Path | None = None
+    plan_file: Path | None = None
+
+    @cached_property
+    def raw(self) -> Json:
+        """The layout file."""
+        return read_json(self.folder)
+
+    def bar_rules(self) -> tuple[Rule, ...]:
+        """Give the checks of these files."""
+        return (
+            Rule("V34c", "bars: pieces, kerf, trim and offcuts", LENGTH, "mm", lambda _: nested_bars.pieces(self.raw)),
+            Rule("V34d", "the saw list = layout", 0, "faults", lambda _: nested_bars.listed(self.raw, self.saw_file)),
+            Rule("V45g", "the saw list shows every bar as it is cut", 0, "faults", lambda _: self._planned()),
+        )
+
+    def _planned(self) -> Measured:
+        if self.plan_file is None:
+            raise NotApplicable("no saw list was printed")
+        return paper_faults(read_pdf(self.plan_file), nested_bars.bars_of(self.raw))
+
+
 def verify_nest(
-    layout: Path, sheets: Path | None = None, plan: Path | None = None, spread: Spread = one_by_one
+    layout: Path,
+    sheets: Path | None = None,
+    plan: Path | None = None,
+    saw_list: Path | None = None,
+    spread: Spread = one_by_one,
 ) -> Certificate:
     """Prove what `isomould nest` wrote.
 
     Parameters
     ----------
     layout
-        The layout file.
+        The layout file, of sheets or of bars.
     sheets
         The folder of its sheets.
     plan
-        Its cutting plan.
+        Its cutting plan, or the saw list on paper.
+    saw_list
+        Its saw list as a table.
     spread
         Reads the sheets side by side.
 
@@ -100,6 +134,9 @@ def verify_nest(
     OutputFault
         If the layout cannot be read. Whatever else is wrong is a failed check.
     """
+    if read_json(layout).get("kind") == "bars":
+        bars = NestedBars(layout, True, spread, saw_list, plan)
+        return Certificate(tuple(judge(rule, bars) for rule in bars.bar_rules()))
     found = Nested(layout, True, spread, sheets, plan)
     rules = RULES if found.layout.sheets else tuple(rule for rule in RULES if rule.id == "V31")
     return Certificate(tuple(judge(rule, found) for rule in rules))

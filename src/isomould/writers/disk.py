@@ -57,7 +57,7 @@ def replace_file(path: Path, data: bytes) -> None:
 @contextmanager
 def replacing(path: Path) -> Generator[Path]:
     """Give a place beside a file to write it to; on a clean exit it is renamed, else nothing is left behind."""
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
+    partial = path.with_name(f"{path.stem}.partial-{os.getpid()}{path.suffix}")
     try:
         yield partial
         partial.replace(path)

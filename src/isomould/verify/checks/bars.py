@@ -26,7 +26,7 @@ def bars(delivery: Delivery) -> Measured:
     table, pieces = _bars(delivery), _pieces(delivery)
     names = texts(table, "bar")
     kerf, trim = (float(delivery.nesting[key]) for key in ("bar_kerf_mm", "bar_trim_mm"))
-    short = [_shortfall(pieces.get(name, []), kerf, trim) for name in names]
+    short = [shortfall(pieces.get(name, []), kerf, trim) for name in names]
     counted = np.equal([len(pieces.get(name, [])) for name in names], numbers(table, "pieces"))
     strays = [float("inf") for _ in pieces.keys() - set(names)]
     off = [
@@ -53,11 +53,11 @@ def _pieces(delivery: Delivery) -> dict[str, list[Piece]]:
     found: defaultdict[str, list[Piece]] = defaultdict(list)
     for bar, mark, turned, position in places:
         if bar:
-            found[bar].append(_placed(one_outline(delivery.members[mark]).points, turned, float(position)))
+            found[bar].append(placed(one_outline(delivery.members[mark]).points, turned, float(position)))
     return {bar: sorted(pieces, key=_left) for bar, pieces in found.items()}
 
 
-def _placed(points: Floats, turned: str, position: float) -> Piece:
+def placed(points: Floats, turned: str, position: float) -> Piece:
     """Turn a part and set its left end where it lies on its bar, its middle on that of the bar."""
     facing = points * np.array(_FACING[turned])
     low, high = facing.min(axis=0), facing.max(axis=0)
@@ -71,11 +71,12 @@ def _left(piece: Piece) -> float:
     return float(piece.bounds[0])
 
 
-def _right(pieces: list[Piece]) -> float:
+def reach(pieces: list[Piece]) -> float:
+    """Give where the last piece ends."""
     return max((float(piece.bounds[2]) for piece in pieces), default=0.0)
 
 
-def _shortfall(pieces: list[Piece], kerf: float, trim: float) -> float:
+def shortfall(pieces: list[Piece], kerf: float, trim: float) -> float:
     """Give how far any two pieces fall short of the kerf, or the first of the trim."""
     pairs = ((a, b) for a, b in combinations(pieces, 2) if _left(b) - a.bounds[2] < kerf)
     short = [kerf - float(a.distance(b)) if a.intersection(b).area <= LEAVE else np.inf for a, b in pairs]
@@ -85,7 +86,7 @@ def _shortfall(pieces: list[Piece], kerf: float, trim: float) -> float:
 def _stock_spread(table: Table, pieces: dict[str, list[Piece]]) -> list[float]:
     """Give for every bar how far end of the last piece + offcut is from the first bar of that stock."""
     rows = zip(texts(table, "bar"), texts(table, "stock"), numbers(table, "offcut_mm"), strict=True)
-    total = {bar: (stock, _right(pieces.get(bar, [])) + offcut) for bar, stock, offcut in rows}
+    total = {bar: (stock, reach(pieces.get(bar, [])) + offcut) for bar, stock, offcut in rows}
     first = dict(reversed(list(total.values())))
     return [abs(length - first[stock]) for stock, length in total.values()]
 

@@ -55,7 +55,7 @@ def _row_faults(row: Row, own: list[str], listed: list[str]) -> Iterator[str]:
     yield from (
         f"{row['sheet']}: {label} {row[name]} is not on its page"
         for name, label in _LABELS.items()
-        if name in row and not any(_says(text, row[name], name) for text in shown.get(label, []))
+        if name in row and not any(says(text, row[name], name) for text in shown.get(label, []))
     )
     starts = [k for k, text in enumerate(listed) if text == row["sheet"]]
     if not any(_says_all(listed[k + 2 : k + 2 + len(_LABELS)], row) for k in starts):
@@ -64,10 +64,11 @@ def _row_faults(row: Row, own: list[str], listed: list[str]) -> Iterator[str]:
 
 def _says_all(found: list[str], row: Row) -> bool:
     cells = zip(_LABELS, found, strict=False)
-    return len(found) == len(_LABELS) and all(_says(text, row[name], name) for name, text in cells if name in row)
+    return len(found) == len(_LABELS) and all(says(text, row[name], name) for name, text in cells if name in row)
 
 
-def _says(text: str, wanted: str | float, column: str) -> bool:
+def says(text: str, wanted: str | float, column: str) -> bool:
+    """Tell whether a text is the one that is wanted, or a number within half a unit of what its column prints."""
     if isinstance(wanted, str):
         return text == wanted
     try:
@@ -88,11 +89,11 @@ def _missing_parts(delivery: Delivery, sheet: str, own: list[str]) -> Iterator[t
         item = placed[k]
         turn = f"{item.rotation_deg:g}{', over' if item.turned_over else ''}"
         row = (str(place), item.mark, item.location or turn)
-        if not any(_is_shown(item.mark, text) for text in shown.get((row[0], row[2]), [])):
+        if not any(is_shown(item.mark, text) for text in shown.get((row[0], row[2]), [])):
             yield row
 
 
-def _is_shown(mark: str, text: str) -> bool:
+def is_shown(mark: str, text: str) -> bool:
     """Tell whether a text is a mark; what the standard font lacks may be any other characters."""
     letters = (re.escape(c) if c.encode("cp1252", "ignore") else ".+" for c in unicodedata.normalize("NFC", mark))
     return text == mark or re.fullmatch("".join(letters), text) is not None

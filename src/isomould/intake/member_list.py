@@ -1,0 +1,74 @@
+"""Lists of members as CSV or JSON: what is cut from bars."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from isomould.errors import Note
+from isomould.intake.csv_list import MEMBERS, Line, Sheet, heading_names, read_sheet
+from isomould.nesting.instance import make_stock, parse_json, read_text
+from isomould.nesting.member_rows import MemberList, read_members, refuse_unlike_ends
+from isomould.nesting.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show
+from isomould.units import LengthUnit
+
+_STOCK = {"bars", "bar_kerf", "bar_trim", "bar_ends"}
+_ANGLES = ("end_angle_start", "end_angle_end")
+
+
+def lists_members(path: Path) -> bool:
+    """Tell a list of members by its columns `section` and `length`, or in JSON by its key `members`."""
+    if path.is_dir():
+        return False
+    if path.suffix.lower() == ".csv":
+        names = heading_names(path, MEMBERS)
+        return {"section", "length"} <= names and not {*TRAPEZOID, "points"} & names
+    table = parse_json(read_text(path, "a JSON file in UTF-8"), str(path))
+    return isinstance(table, dict) and "members" in table
+
+
+def read_member_list(
+    path: Path, asked: Mapping[str, Any], units: LengthUnit | None = None
+) -> tuple[MemberList, tuple[Note, ...]]:
+    """Read a list of members, and what should be known of it.
+
+    Parameters
+    ----------
+    path
+        A CSV file, or else JSON.
+    asked
+        Keys of the `[stock]` table that take the place of the file's own.
+    units
+        Of columns that do not say theirs.
+
+    Raises
+    ------
+    Refused
+        Naming file, field, what was found, the limit, and a way out.
+    OutputFault
+        If the file cannot be read.
+    """
+    if path.suffix.lower() == ".csv":
+        sheet = read_sheet(path, units, MEMBERS)
+        return _made(path.stem, [_row(sheet, line) for line in sheet.lines], asked, str(path)), sheet.notes
+    file = str(path)
+    table = mapping(parse_json(read_text(path, "a JSON file in UTF-8"), file), file)
+    refuse_unknown(table, {"name", "members", *_STOCK}, file)
+    rows, name = table["members"], get(table, "name", file)
+    if not isinstance(rows, list) or not rows:
+        refuse(f"{file}: members", show(rows), "a list with at least one member")
+    own = {key: table[key] for key in table if key in _STOCK}
+    named = [(row, f"{file}: members[{k}]") for k, row in enumerate(rows)]
+    return _made(name if isinstance(name, str) else show(name), named, {**own, **asked}, file), ()
+
+
+def _made(name: str, rows: list[Row], stock: Mapping[str, Any], file: str) -> MemberList:
+    members, settings = read_members(rows, file), make_stock(stock, file, "bars")
+    refuse_unlike_ends(rows, settings)
+    return MemberList(name, members, settings)
+
+
+def _row(sheet: Sheet, line: Line) -> Row:
+    depth = {"depth": sheet.number(line, "depth")} if line.cells.get("depth") else {}
+    angles = {key: sheet.angle(line, key) for key in _ANGLES}
+    own = {"section": line.cells["section"], "id": line.cells["id"], "quantity": sheet.quantity(line)}
+    return {**own, "length": sheet.number(line, "length"), **depth, **angles}, line.field
