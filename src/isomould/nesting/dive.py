@@ -7,13 +7,13 @@ The dive fixes the sheets that are used most, and prices anew where what is left
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from isomould.arrays import Floats, Ints
-from isomould.nesting.cover import Rack, cost_of, pieces_of
+from isomould.nesting.cover import Rack, area_of, cost_of, pieces_of
 from isomould.nesting.crew import Crew, Order
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
 from isomould.nesting.pricing import add_offer, make_offers
@@ -35,11 +35,17 @@ AGAIN = 3
 CALM = 0.8
 """How near the worth for pricing stays to that of the best bound; the rest is the worth in the programme."""
 
+EASE = 0.25
+"""Part of a sheet that a dive may lose by and by."""
+
 CHUNK = 100
 """Pieces that a cover sees at a time, drawn by lot."""
 
 LAST = 400
 """Pieces left from which a cover sees all of them."""
+
+PART = 24
+"""Emptiest sheets that are dived into at a time."""
 
 SHARE = 0.15
 """Part of the sheets still to come that a step fixes."""
@@ -49,6 +55,12 @@ SPREAD = 0.02
 
 LEAST_WORTH = 0.5
 """What a piece is worth at least to a cover, by its area in sheets: nothing is left until the end."""
+
+STILL = 0.001
+"""Fall of the cost per round, in sheets, below which pricing more columns does not pay."""
+
+SEEN = 5
+"""Rounds that it is watched for."""
 
 USED = 1e-6
 """Columns used less than this are not used."""
@@ -80,23 +92,45 @@ def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: C
     add_plans(state.master, first)
     best = first
     _price(state, counts, rack.areas, {})
+    costs: list[float] = []
     for done in range(ROUNDS[task.effort]):
         if task.stops or len(best) <= rack.goal:
             return Found(best, not task.stops)
         task.tell(done, ROUNDS[task.effort], len(best), rack.goal)
         solution = solve(state.master, counts)
+        costs.append(solution.cost)
         if done < COVERS:
             best = min(best, _cover(state, counts, solution), key=cost_of)
-        elif not _generate(state, counts, solution):
+        elif _still(costs) or _ripe(state, solution, best) or not _generate(state, counts, solution):
             break
     bound = math.ceil(state.bound - USED)
     return replace(_sink(state, counts, best, task), pattern_bound=bound)
+
+
+def _still(costs: Sequence[float]) -> bool:
+    return len(costs) > COVERS + SEEN and costs[-SEEN - 1] - costs[-1] < SEEN * STILL
+
+
+def _ripe(state: _Dive, solution: Solution, best: list[SheetPlan]) -> bool:
+    """Tell whether a dive is sure of the least number of sheets, or of none less than the best has."""
+    if len(state.rack.stock) > 1:
+        return False
+    least = math.ceil(state.bound - USED)
+    return least >= len(best) or least - solution.cost >= EASE
 
 
 def _generate(state: _Dive, counts: Ints, solution: Solution) -> bool:
     """Price new columns, calmly if that finds any; tell whether there are."""
     worths = (calm * state.worth + (1 - calm) * solution.worth for calm in (CALM, CALM / 2, 0.0))
     return any(_price(state, counts, worth, solution.slots) for worth in worths)
+
+
+def dive_part(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
+    """Better a filling by a dive into its emptiest sheets."""
+    ranked = sorted(plans, key=lambda plan: area_of(rack, plan) / plan.frame.cost)
+    part, kept = ranked[:PART], ranked[PART:]
+    found = dive(replace(rack, goal=max(rack.goal - len(kept), 0)), part, pieces_of(part, len(counts)), task, crew)
+    return Found(kept + found.plans, found.ended)
 
 
 def _price(state: _Dive, counts: Ints, worth: Floats, slots: Mapping[Slot, float]) -> bool:
