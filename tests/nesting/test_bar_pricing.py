@@ -37,7 +37,9 @@ def test_nothing_is_worth_more_than_the_best_pattern(
     most = np.array([(takes[takes @ rack.sizes <= room] @ worth).max() for room in rooms], dtype=float)
     for ladder in ladders(rack, need):
         assert (most_worth(rack, need, worth.astype(float), ladder) == most).all()
-        found = price(rack, need, Values(worth.astype(float), np.zeros(len(rooms))), ladder)
+        values = Values(worth.astype(float), worth.astype(float), np.zeros(len(rooms)))
+        found, priced = price(rack, need, values, ladder)
+        assert (priced == most).all()
         for kind, room in enumerate(rooms):
             mine = [pattern.takes for pattern in found if pattern.kind == kind]
             assert max((float(taken @ worth) for taken in mine), default=0.0) == most[kind]

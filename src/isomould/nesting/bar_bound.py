@@ -117,7 +117,7 @@ def _below(rack: BarRack, need: Need, fineness: int) -> tuple[BarRack, Ladder]:
 
 def _worth(rack: BarRack, need: Need, costs: Floats, patterns: Sequence[Pattern], ladder: Ladder) -> Floats:
     programme = make_programme(rack, costs, patterns)
-    return generate(programme, need, ROUNDS, ladder).worth
+    return generate(programme, need, ROUNDS, ladder).proof
 
 
 def _bounded(

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import highspy
@@ -12,6 +12,9 @@ from isomould.arrays import Bools, Floats
 from isomould.nesting.bar_ladder import Ladder
 from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
+
+PULL = 0.8
+"""Weight of the calm worths among those that are priced."""
 
 MISSING = 100.0
 """What a piece costs that no pattern cuts, in costs of the dearest bar."""
@@ -27,12 +30,13 @@ SLIGHT = 1e-6
 class Programme:
     """A growing linear programme: a row for every size and one for every kind; columns as the solver has them.
 
-    `costs` are in costs `top` of the dearest kind.
+    `costs` are in costs `top` of the dearest kind; `calm` worths (n,) are at first in proportion to lengths.
     """
 
     rack: BarRack
     costs: Floats
     top: float
+    calm: Floats
     solver: Any = field(default_factory=highspy.Highs)
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     known: set[tuple[int, bytes]] = field(default_factory=set[tuple[int, bytes]])
@@ -40,17 +44,23 @@ class Programme:
 
 @dataclass(frozen=True, eq=False)
 class Shares:
-    """Least cost in fractions, uses of every pattern, worth of a piece of every size, toll of every kind."""
+    """Least cost in fractions, uses of every pattern, worth of a piece of every size, toll of every kind.
+
+    `proof` are the worths that prove the most.
+    """
 
     cost: float
     uses: Floats
     worth: Floats
     tolls: Floats
+    proof: Floats
 
 
 def make_programme(rack: BarRack, costs: Floats, first: Sequence[Pattern]) -> Programme:
     """Set up a programme from first patterns; the dearest kind of bar counts one."""
-    programme = Programme(rack, costs / costs.max(), float(costs.max()))
+    top = float(costs.max())
+    calm = rack.sizes.astype(np.float64) * float((costs / top / np.maximum(rack.rooms, 1)).min())
+    programme = Programme(rack, costs / top, top, calm)
     programme.solver.setOptionValue("output_flag", False)
     programme.solver.setOptionValue("threads", 1)
     programme.solver.setOptionValue("simplex_strategy", PRIMAL)
@@ -82,32 +92,51 @@ def _add_column(programme: Programme, cost: float, rows: object, values: object)
 
 
 def generate(programme: Programme, need: Need, rounds: int, ladder: Ladder) -> Shares:
-    """Price patterns for what is left until no more can save a whole bar; at most so many rounds."""
+    """Price patterns for what is left until no more can save a whole bar; at most so many rounds.
+
+    Worths of early rounds jump: patterns are priced between them and the calm ones, which have proved the most so far
+    (Wentges 1997). Where no new pattern comes of that, the worths themselves are priced.
+    """
     _ask(programme, need)
-    shares = _solve(programme, need)
+    shares, pull = _solve(programme, need), PULL
     for _ in range(rounds):
-        known = len(programme.patterns)
-        patterns = price(programme.rack, need, Values(shares.worth, programme.costs + shares.tolls), ladder)
+        known, pull = len(programme.patterns), pull if _is_steady(programme, shares) else 0.0
+        worth = pull * programme.calm + (1.0 - pull) * shares.worth
+        values = Values(worth, shares.worth, programme.costs + shares.tolls)
+        patterns, most = price(programme.rack, need, values, ladder)
         add_patterns(programme, patterns)
-        if len(programme.patterns) == known or _is_settled(programme, shares, patterns):
+        proved, closer = _prove(programme, need, shares, (worth, most))
+        if whole(programme.top * proved) >= whole(programme.top * shares.cost):
             break
-        shares = _solve(programme, need)
-    return shares
+        if len(programme.patterns) > known:
+            shares, pull = _solve(programme, need), PULL
+        elif pull == 0.0:
+            break
+        elif not closer:
+            pull = 0.0
+    return replace(shares, proof=programme.calm) if _is_steady(programme, shares) else shares
+
+
+def _is_steady(programme: Programme, shares: Shares) -> bool:
+    """Tell whether worths scaled alone prove something: no bar is free or scarce."""
+    return bool(programme.costs.min() > 0 and shares.tolls.max() < SLIGHT)
+
+
+def _prove(programme: Programme, need: Need, shares: Shares, priced: tuple[Floats, Floats]) -> tuple[float, bool]:
+    """Give what worths, scaled until no bar holds more than it costs, prove; if that is more, they become calm."""
+    worth, most = priced
+    over = float(((most - shares.tolls) / np.maximum(programme.costs, SLIGHT)).max())
+    if not _is_steady(programme, shares):
+        return shares.cost / max(over, 1.0), False
+    before, now = float(programme.calm @ need.counts), float(worth @ need.counts) / max(over, SLIGHT)
+    if now > before:
+        programme.calm = worth / over
+    return max(before, now), now > before
 
 
 def whole(cost: float) -> int:
     """Round a cost up to the next whole one."""
     return max(math.ceil(cost - SLIGHT), 0)
-
-
-def _is_settled(programme: Programme, shares: Shares, patterns: Sequence[Pattern]) -> bool:
-    """Tell whether the worths, scaled until no pattern holds more than it costs, prove the same whole cost."""
-    over = max(
-        float((pattern.takes @ shares.worth - shares.tolls[pattern.kind]) / max(programme.costs[pattern.kind], SLIGHT))
-        for pattern in patterns
-    )
-    cost = programme.top * shares.cost
-    return whole(cost / max(over, 1.0)) >= whole(cost)
 
 
 def _ask(programme: Programme, need: Need) -> None:
@@ -132,4 +161,5 @@ def _solve(programme: Programme, need: Need) -> Shares:
     sizes, found = len(need.counts), programme.solver.getSolution()
     dual, cost = np.array(found.row_dual), programme.solver.getInfo().objective_function_value
     uses = np.array(found.col_value)[sizes:]
-    return Shares(cost, uses, np.maximum(dual[:sizes], 0.0), np.maximum(-dual[sizes:], 0.0))
+    worth = np.maximum(dual[:sizes], 0.0)
+    return Shares(cost, uses, worth, np.maximum(-dual[sizes:], 0.0), worth)

@@ -17,28 +17,32 @@ COLUMNS = 200
 
 @dataclass(frozen=True, eq=False)
 class Values:
-    """What a piece of every size (n,) is worth; what a bar of every kind (k,) costs, toll of a scarce one included."""
+    """What pieces of every size (n,) are priced by, and what they are worth; what a bar of every kind (k,) costs.
 
+    The cost includes the toll of a scarce kind.
+    """
+
+    priced: Floats
     worth: Floats
     charges: Floats
 
 
-def price(rack: BarRack, need: Need, values: Values, ladder: Ladder) -> list[Pattern]:
-    """Give the patterns worth more than their bars, the best first: the best around every size, for every kind.
+def price(rack: BarRack, need: Need, values: Values, ladder: Ladder) -> tuple[list[Pattern], Floats]:
+    """Give patterns worth more than their bars, the best first, and the most that every kind (k,) holds as priced.
 
-    One dynamic programme over the lengths tells them all.
+    The patterns are the best around every size, for every kind: one dynamic programme over the lengths tells them all.
     """
-    copies = _worthy(rack, need, values.worth)
+    copies = _worthy(rack, need, values.priced)
     items = np.repeat(np.arange(len(copies)), copies)
-    table = items, _take_all(items, ladder, values.worth)
+    best, taken = _take_all(items, ladder, values.priced)
     found = list[Pattern]()
     for kind in np.flatnonzero(need.limits > 0).tolist():
-        takes = _patterns(int(ladder.tops[kind]), np.flatnonzero(copies), table, ladder)
+        takes = _patterns(int(ladder.tops[kind]), np.flatnonzero(copies), (items, taken), ladder)
         gain = takes @ values.worth - values.charges[kind]
-        best = np.argsort(-gain, kind="stable")
-        best = best[(gain[best] > SLIGHT) & (takes[best] <= need.counts).all(axis=1)]
-        found += [Pattern(kind, takes[row]) for row in best[: max(COLUMNS // len(rack.rooms), 1)]]
-    return found
+        order = np.argsort(-gain, kind="stable")
+        order = order[(gain[order] > SLIGHT) & (takes[order] <= need.counts).all(axis=1)]
+        found += [Pattern(kind, takes[row]) for row in order[: max(COLUMNS // len(rack.rooms), 1)]]
+    return found, best[ladder.tops]
 
 
 def most_worth(rack: BarRack, need: Need, worth: Floats, ladder: Ladder) -> Floats:
@@ -55,13 +59,13 @@ def _worthy(rack: BarRack, need: Need, worth: Floats) -> Ints:
     return np.where(worth > 0, copies_of(rack, need.counts), 0)
 
 
-def _take_all(items: Ints, ladder: Ladder, worth: Floats) -> Bools:
-    """Solve the bounded knapsack for every rung: whether an item is taken, (items, rungs)."""
+def _take_all(items: Ints, ladder: Ladder, worth: Floats) -> tuple[Floats, Bools]:
+    """Solve the bounded knapsack for every rung: the most worth, and whether an item is taken, (items, rungs)."""
     best = np.zeros(ladder.count)
     taken = np.zeros((len(items), ladder.count), dtype=np.bool_)
     for row, item in zip(taken, items.tolist(), strict=True):
         _take(best, (int(ladder.first[item]), ladder.rests(item)), float(worth[item]), row)
-    return taken
+    return best, taken
 
 
 def _take(best: Floats, rungs: tuple[int, slice | Ints], worth: float, took: Bools) -> None:
