@@ -79,7 +79,7 @@ def nest_kit(kit: Kit, stock: StockSettings | None, task: Search, spread: Spread
     stock = stock or StockSettings()
     work = [
         _panel_work(kit, stock, task),
-        *([partial(nest_bars, _member_parts(kit), stock)] if stock.bars else []),
+        *([partial(nest_bars, _member_parts(kit), stock, task.effort)] if stock.bars else []),
     ]
     sheets, *rest = spread(_run, work)
     bars = cast("BarLayout", rest[0]) if rest else None

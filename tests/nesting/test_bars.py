@@ -36,6 +36,16 @@ def test_many_lengths_meet_their_bound() -> None:
     assert layout.gap_to_bound == 0
 
 
+def test_quick_effort_leaves_out_the_patterns_of_many_lengths() -> None:
+    """The greedy ways, and bars filled again: near the bound, and at it with patterns."""
+    chance = np.random.default_rng(5)
+    members = [Member(k, "P", float(x)) for k, x in enumerate(np.round(chance.uniform(1200, 3600, 120), 3))]
+    stock = StockSettings(bars=(BarStock(section="P", length=6000),))
+    quick, normal = nest_bars(members, stock, "quick"), nest_bars(members, stock)
+    assert check_bars(members, stock, quick) == ()
+    assert quick.bound <= normal.bound == len(normal.bars) < len(quick.bars) <= 1.05 * quick.bound
+
+
 def test_few_lengths_meet_the_bound_of_their_patterns() -> None:
     """Three patterns and no other fill a bar: first fit alone needs more."""
     stock = StockSettings(bars=(BarStock(section="P", length=100),), bar_kerf=0)

@@ -47,10 +47,11 @@ class Ladder:
 
 @dataclass(frozen=True, eq=False)
 class Ladders:
-    """The ladder of a rack that holds all lengths, or else grids."""
+    """The ladder of a rack that holds all lengths, or else grids of some finenesses."""
 
     rack: BarRack
     exact: Ladder | None
+    finenesses: tuple[int, ...]
 
     def __call__(self, counts: Ints, fineness: int) -> Ladder:
         """Give a ladder for pieces of some counts (n,); a grid is so many times as fine as the coarsest."""
@@ -69,7 +70,7 @@ def exact_ladder(rack: BarRack, counts: Ints) -> Ladder | None:
 
 def _sums(rack: BarRack, copies: Ints) -> Ints | None:
     sums, room = np.zeros(1, dtype=np.int64), int(rack.rooms.max())
-    for size in np.repeat(rack.sizes, copies).tolist():
+    for size in np.repeat(rack.sizes, copies)[::-1].tolist():
         sums = np.union1d(sums, sums[: np.searchsorted(sums, room - size, "right")] + size)
         if len(sums) > RUNGS:
             return None

@@ -16,11 +16,12 @@ from isomould.nesting.bar_ladder import Ladder, Ladders, exact_ladder
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, cost_of, less, merit, sum_of
 from isomould.nesting.bar_squeeze import pack, squeeze
 from isomould.nesting.bar_whole import Fits, choose_best, choose_whole
+from isomould.nesting.search import Effort
 
-MOST = 2_000
-"""Different sizes up to which patterns pay."""
+MOST: dict[Effort, int] = {"quick": 100, "normal": 2_000, "best": 2_000}
+"""Different sizes up to which patterns pay, by effort."""
 
-GRIDS = (1, 4, 16)
+GRIDS: dict[Effort, tuple[int, ...]] = {"quick": (1,), "normal": (1, 4, 16), "best": (1, 4, 16)}
 """Finenesses of the grids on which patterns are priced, one after another where that may prove or save a bar."""
 
 AGAIN = 6
@@ -40,29 +41,29 @@ FEWER = 1e-4
 
 
 def find_bars(
-    rack: BarRack, need: Need, proof: Proof | None = None, fits: Fits | None = None
+    rack: BarRack, need: Need, proof: Proof | None = None, fits: Fits | None = None, effort: Effort = "normal"
 ) -> tuple[list[Pattern], BarBound]:
     """Cut a need from bars at the least cost; pieces may be left if there are too few bars.
 
     Bounds hold for the rack of the proof if it is another; then `fits` knows of a few pieces what fits truly.
     """
     proof = proof or Proof(rack)
-    patterns, bound = _find(rack, need, proof)
+    patterns, bound = _find(rack, need, proof, effort)
     if fits is not None and not _meets(rack, patterns, need, bound):
         patterns = _best(rack, [patterns, choose_best(proof.rack, need, fits)])
     placed = Need(sum_of(rack, patterns), need.limits)
-    return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns)
+    return patterns, bound if _serves(patterns, need) else _bound(proof, placed, patterns, MOST[effort])
 
 
-def _find(rack: BarRack, need: Need, proof: Proof) -> tuple[list[Pattern], BarBound]:
+def _find(rack: BarRack, need: Need, proof: Proof, effort: Effort) -> tuple[list[Pattern], BarBound]:
     bound = length_bound(proof, need.counts)
     patterns = _best(rack, [first_fit(rack, need), largest_first(rack, need)])
     if _meets(rack, patterns, need, bound):
         return patterns, bound
-    ladders = Ladders(rack, exact_ladder(rack, need.counts))
+    ladders = Ladders(rack, exact_ladder(rack, need.counts), GRIDS[effort])
     if ladders.exact is None:
         patterns = _squeezed(rack, patterns, need, bound)
-    if not _meets(rack, patterns, need, bound) and len(rack.sizes) <= MOST:
+    if not _meets(rack, patterns, need, bound) and len(rack.sizes) <= MOST[effort]:
         patterns, bound = _by_columns(proof, ladders, need, patterns, bound)
     return patterns, bound
 
@@ -88,16 +89,16 @@ def _settle(
 ) -> tuple[BarBound, Demand | None, int]:
     """Refine the grid until patterns can meet the bound in fractions, or are proved to cost more."""
     demand, several = None, len(programme.costs) > 1
-    for fineness in GRIDS:
+    for fineness in ladders.finenesses:
         shares = generate(programme, need, ROUNDS, ladders(need.counts, fineness))
         least = whole(programme.top * shares.cost)
         if least > bound.cost or several:
             best = ladders.exact is not None and _alike(proof.rack, programme.rack)
-            hint = Hint(_used(programme, shares), shares.worth, least, best)
+            hint = Hint(_used(programme, shares), shares.proof, least, best)
             bound, demand = linear_bound(proof, hint, need, bound, fineness)
         if least <= bound.cost or several or ladders.exact:
             return bound, demand, fineness
-    return bound, demand, GRIDS[-1]
+    return bound, demand, ladders.finenesses[-1]
 
 
 def _mixed(rack: BarRack, need: Need, best: list[Pattern], demand: Demand) -> list[Pattern]:
@@ -148,12 +149,12 @@ def _serves(patterns: list[Pattern], need: Need) -> bool:
     return sum(int(pattern.takes.sum()) for pattern in patterns) == need.counts.sum()
 
 
-def _bound(proof: Proof, need: Need, patterns: list[Pattern]) -> BarBound:
+def _bound(proof: Proof, need: Need, patterns: list[Pattern], most: int) -> BarBound:
     """Bound what found a place by length, and by patterns if there are not too many sizes."""
     proof = Proof(proof.rack)
     bound = length_bound(proof, need.counts)
-    small = 0 < len(need.counts) <= MOST
-    return linear_bound(proof, Hint(patterns), need, bound, GRIDS[0])[0] if small else bound
+    small = 0 < len(need.counts) <= most
+    return linear_bound(proof, Hint(patterns), need, bound, 1)[0] if small else bound
 
 
 def _dive(

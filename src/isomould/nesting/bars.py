@@ -13,6 +13,7 @@ from isomould.nesting.bar_ends import lay
 from isomould.nesting.bar_search import find_bars
 from isomould.nesting.bar_task import MILLIONTHS, Kind, Piece, kinds_of, make_task, pieces_of
 from isomould.nesting.layout import Bar, BarLayout, Cut, Member, Unplaced
+from isomould.nesting.search import Effort
 from isomould.nesting.settings import BarStock, StockSettings
 from isomould.nesting.shapes import UM, round_away
 
@@ -29,8 +30,10 @@ class _Nested:
     unit: int
 
 
-def nest_bars(members: Sequence[Member], stock: StockSettings) -> BarLayout:
+def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = "normal") -> BarLayout:
     """Nest members on the stock bars of their sections.
+
+    A quick effort leaves out patterns, and bounds by them, where lengths are many; the best is the normal one.
 
     Returns
     -------
@@ -43,7 +46,7 @@ def nest_bars(members: Sequence[Member], stock: StockSettings) -> BarLayout:
         If a member is longer than every bar of its section.
     """
     sections = list(dict.fromkeys(member.section for member in members))
-    nested = [_nest_section(section, members, stock) for section in sections]
+    nested = [_nest_section(section, members, stock, effort) for section in sections]
     plans = [plan for one in nested for plan in one.plans]
     left = tuple(_unplaced(piece) for one in nested for piece in one.left)
     bars = tuple(_bar(f"B{k + 1:0{max(3, len(str(len(plans))))}}", plan, stock) for k, plan in enumerate(plans))
@@ -65,13 +68,13 @@ def _price_bound(nested: _Nested) -> float:
     return nested.bound.cost * nested.unit / MILLIONTHS if priced else 0.0
 
 
-def _nest_section(section: str, members: Sequence[Member], stock: StockSettings) -> _Nested:
+def _nest_section(section: str, members: Sequence[Member], stock: StockSettings, effort: Effort) -> _Nested:
     kinds = kinds_of(section, stock)
     pieces = [piece for member in members if member.section == section for piece in pieces_of(member, stock)]
     _refuse_long(pieces, kinds, section, stock)
     task = make_task(pieces, kinds, stock)
     slanted = any(any(piece.blank.runs) for piece in pieces)
-    patterns, bound = find_bars(task.rack, task.need, task.proof, task.fits if slanted else None)
+    patterns, bound = find_bars(task.rack, task.need, task.proof, task.fits if slanted else None, effort)
     plans = [(kinds[pattern.kind].bar, task.take(pattern.takes)) for pattern in patterns]
     return _Nested(plans, [piece for queue in task.queues for piece in queue], bound, task.unit)
 
