@@ -4,15 +4,23 @@ import numpy as np
 import pytest
 from nesting_examples import GLASS, trapezoid
 
+from isomould.arrays import Ints
 from isomould.nesting.bound import bound_stock
 from isomould.nesting.checker import check_layout
+from isomould.nesting.cover import Rack, fill_sheets, pieces_of
+from isomould.nesting.crew import gather
 from isomould.nesting.cut_checker import replay
+from isomould.nesting.dive import dive_part
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Part
+from isomould.nesting.master import add_stack, add_strip, make_master, solve
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.patterns import stack_up
+from isomould.nesting.pricing import make_offers
+from isomould.nesting.rack import make_rack, piece_counts, sort_classes
 from isomould.nesting.search import Search
 from isomould.nesting.settings import SheetStock, StockSettings
+from isomould.nesting.sheets import fill, strip_parts
 
 SMALL = StockSettings(sheets=(SheetStock(name="s", width=3000, height=1500),), gap=8, kerf=3, trim=10)
 LARGE = StockSettings(sheets=(GLASS,), gap=5, trim=20)
@@ -104,3 +112,51 @@ def test_slanted_cut_through_a_square_by_hand() -> None:
     assert found.cuts == pytest.approx((100 * slant,))
     assert left[:, 0].max() == pytest.approx(60 - slant)
     assert right[:, 0].min() == pytest.approx(50 + slant)
+
+
+def rack_of(parts: list[Part], stock: StockSettings) -> tuple[Rack, Ints]:
+    classes = sort_classes(parts)
+    return make_rack(classes, stock), piece_counts(classes)
+
+
+def test_a_lower_strip_may_lie_in_a_taller_slot() -> None:
+    stock = LARGE.model_copy(update={"turning": "half"})
+    rack, counts = rack_of([Part(1, trapezoid(1000, 800, 0, 0), 3)], stock)
+    (strip,) = fill(rack.frames[0], counts, rack.areas).strips
+    master = make_master(counts)
+    add_strip(master, rack.frames[0], strip)
+    add_stack(master, rack.frames[0], [900_000, 900_000])
+    solution = solve(master, counts)
+    assert solution.cost == pytest.approx(0.5)
+    assert solution.slots == {(0, False, 800_000): pytest.approx(0.5), (0, False, 900_000): pytest.approx(0.5)}
+
+
+@pytest.mark.parametrize(("parts", "stock"), [(dome(), SMALL), (stadium(), LARGE)], ids=["dome", "stadium"])
+def test_offers_fit_and_bound_what_a_sheet_holds(parts: list[Part], stock: StockSettings) -> None:
+    rack, counts = rack_of(parts, stock)
+    worth = rack.areas * 1.2
+    for offer in make_offers(rack, counts, worth, {}):
+        frame = offer.frame
+        full = fill(frame, counts, worth)
+        assert worth[full.parts].sum() <= offer.most * frame.cost * (1 + 1e-9)
+        assert offer.strips
+        assert offer.stacks
+        for strip in offer.strips:
+            assert (np.bincount(strip_parts(strip), minlength=len(counts)) <= counts).all()
+        for stack in offer.stacks:
+            assert sum(height + frame.gap for height in stack) <= frame.room
+
+
+def test_a_bound_by_worths_holds_for_every_cover() -> None:
+    rack, counts = rack_of(stadium(), LARGE)
+    most = max(offer.most for offer in make_offers(rack, counts, rack.areas, {}))
+    assert rack.areas @ counts / most <= len(fill_sheets(rack, counts, rack.areas))
+
+
+def test_the_best_effort_dives_into_the_emptiest_sheets() -> None:
+    rack, counts = rack_of(stadium()[::2], LARGE)
+    first = fill_sheets(rack, counts, rack.areas)
+    with gather(rack, 1) as crew:
+        found = dive_part(rack, first, counts, Search("best"), crew)
+    assert (pieces_of(found.plans, len(counts)) == counts).all()
+    assert len(found.plans) < len(first)
