@@ -19,7 +19,7 @@ trim = 15
 turn_over = true
 sheets = [{{name = "Plate", width = "1.6 m", height = "1.2 m"}}]
 """
-ROWS = 'id,quantity,points,file\nA,3,,A.dxf\nÄ 1日,2,"0,0;500,0;620,300;0,400",\n'
+ROWS = 'id,quantity,points,file\nA,3,,A.dxf\nÄ^%%% 1日,2,"0,0;500,0;620,300;0,400",\n'
 
 
 def write_parts(folder: Path, gap: float = 5) -> Path:
@@ -48,6 +48,29 @@ def nested(request, tmp_path_factory):
     write_parts(folder, request.param)
     nest(folder)
     return folder
+
+
+NAMES = [
+    *("A^J", "^", "A\\P b", "\\U+00C4x", " lead", "trail ", "%%d", "%%%", "A  B", "{x}"),
+    "'q",
+    '"q"',
+    "=1",
+    "-",
+    "日",
+    1,
+]
+
+
+@pytest.mark.parametrize("gap", [5, 0])
+def test_names_of_any_kind_pass_their_proof(tmp_path, gap):
+    sides = {"a": 300, "b": 250, "h": 120, "ol": 25, "orr": 25}
+    parts = [{"id": name, "quantity": 2, **sides, "row": k % 3} for k, name in enumerate(NAMES)]
+    table = {"name": "names", "sheet": [1600, 1200], "gap": gap, "trim": 10, "turning": "half", "parts": parts}
+    (tmp_path / "parts.json").write_text(json.dumps(table), encoding="utf-8")
+    files = isomould.NestFiles(sheets=tmp_path / "cut", plan=tmp_path / "plan.pdf")
+    layout = isomould.nest(tmp_path / "parts.json", tmp_path / "layout.json", "quick", files=files, jobs=1)
+    assert {placement.id for placement in layout.placements} == set(NAMES)
+    assert failures(tmp_path) == set()
 
 
 def failures(folder: Path) -> set[str]:

@@ -50,6 +50,26 @@ def test_what_was_written_is_proved(sawn):
     assert [one.status for one in rest] == ["pass", "not_applicable", "not_applicable"]
 
 
+NAMES = [
+    *("A^J", "%%d", " lead", "A  B", "'q", "=1", "-", "日", "B001", "1", "0.5"),
+    "Offcut (mm)",
+    "-3",
+    "2e5",
+    "a,b",
+    7,
+]
+
+
+def test_names_of_any_kind_pass_their_proof(tmp_path):
+    members = [{"id": name, "section": "=S 日 x 2", "length": 700 + k} for k, name in enumerate(NAMES)]
+    table = {"name": "names", "bars": [{"section": "=S 日 x 2", "length": 3210.5}], "members": members}
+    (tmp_path / "m.json").write_text(json.dumps(table), encoding="utf-8")
+    for saw in ("saw.csv", "saw.xlsx"):
+        files = isomould.NestFiles(plan=tmp_path / "saw.pdf", saw_list=tmp_path / saw)
+        isomould.nest(tmp_path / "m.json", tmp_path / "layout.json", files=files)
+        assert set(check(tmp_path, saw).values()) == {"pass"}
+
+
 def in_layout(change):
     def seed(folder):
         table = json.loads((folder / "layout.json").read_text(encoding="utf-8"))

@@ -1,5 +1,6 @@
 """Cut drawings of single parts and of nested sheets."""
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
@@ -97,7 +98,7 @@ def _placed(layer: Layer, orientation: str | None, part: PartOnSheet) -> list[En
     holes = [_inner(hole) for hole in part.holes]
     free = free_area(contour, holes) if holes else outline
     at = outline.representative_point()
-    label = _info(text.replace("%%", "% %"), at.x, at.y, TEXT_HEIGHTS[-1])
+    label = _info(_literal(text), at.x, at.y, TEXT_HEIGHTS[-1])
     return [contour, *holes, *_engraved(engravable(text), free, part.points, orientation), label]
 
 
@@ -116,6 +117,11 @@ def _reversed(contour: Polyline) -> Polyline:
     points = np.roll(contour.points[::-1], 1, axis=0)
     bulges = None if contour.bulges is None else -contour.bulges[::-1]
     return Polyline(contour.layer, points, True, bulges)
+
+
+def _literal(text: str) -> str:
+    """Keep signs from being codes of DXF: two of per cent, and a caret that no blank follows."""
+    return re.sub(r"%(?=%)", "% ", text).replace("^", "^ ")
 
 
 def _info(text: str, x: float, y: float, height: float = _INFO_HEIGHT) -> Label:

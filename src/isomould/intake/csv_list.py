@@ -143,8 +143,8 @@ def read_sheet(path: Path, units: LengthUnit | None, words: Words) -> Sheet:
 def heading_names(path: Path, words: Words) -> set[str]:
     """Tell what the columns of a CSV file are."""
     text, file = read_text(path, "a CSV file in UTF-8"), str(path)
-    cells = _rows(text.split("\n", 1)[0], _separator(text, file), file)[0][1]
-    return {_meaning(cell, words)[0] for cell in cells}
+    rows = _rows(text, _separator(text, file), file)
+    return {_meaning(cell, words)[0] for cell in rows[0][1]} if rows else set()
 
 
 def _blank_pairs(lines: Sequence[Line]) -> list[str]:

@@ -1,5 +1,6 @@
 """V31c: cut sheets name every part where it lies, and engrave nothing outside of parts."""
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 
@@ -42,8 +43,8 @@ def _sheet_faults(drawing: Drawing, placed: list[Placement]) -> Iterator[str]:
 
 
 def _name(item: Placement) -> str:
-    """Give what stands in a part: two percent signs would be a code."""
-    return f"{item.mark} {item.location}".strip().replace("%%", "% %")
+    """Give what stands in a part: two signs of per cent would be a code, and a caret is one without a blank."""
+    return re.sub(r"%(?=%)", "% ", f"{item.mark} {item.location}".strip()).replace("^", "^ ")
 
 
 RULES = (Rule("V31c", "cut sheets name every part in its place", 0, "faults", marked),)
