@@ -92,7 +92,8 @@ def test_columns_and_keys_say_what_is_listed(tmp_path):
     assert lists_members(write(tmp_path / "m.csv", GOOD))
     assert not lists_members(write(tmp_path / "p.csv", "id,quantity,section,length,points\n"))
     assert not lists_members(write(tmp_path / "q.csv", "id,quantity,a,b,h,ol,orr\n"))
-    assert not lists_members(write(tmp_path / "q.csv", ";;\n"))
+    with pytest.raises(Refused, match="an empty first line"):
+        lists_members(write(tmp_path / "q.csv", ";;\n"))
     assert lists_members(write(tmp_path / "m.json", '{"members": []}'))
     assert not lists_members(write(tmp_path / "p.json", '{"parts": []}'))
     assert not lists_members(tmp_path)

@@ -143,8 +143,7 @@ def read_sheet(path: Path, units: LengthUnit | None, words: Words) -> Sheet:
 def heading_names(path: Path, words: Words) -> set[str]:
     """Tell what the columns of a CSV file are."""
     text, file = read_text(path, "a CSV file in UTF-8"), str(path)
-    rows = _rows(text, _separator(text, file), file)
-    return {_meaning(cell, words)[0] for cell in rows[0][1]} if rows else set()
+    return {_meaning(cell, words)[0] for cell in _rows(text, _separator(text, file), file)[0][1]}
 
 
 def _blank_pairs(lines: Sequence[Line]) -> list[str]:
@@ -156,7 +155,7 @@ def _blank_pairs(lines: Sequence[Line]) -> list[str]:
 def _separator(text: str, file: str) -> str:
     """Take the first of semicolon, tab and comma that the heading has; a heading of one column has none."""
     heading = text.split("\n", 1)[0]
-    if not heading.strip():
+    if not heading.strip("; \t\r,\""):
         refuse(file, "an empty first line", "a heading such as id,quantity,a,b,h,ol,orr")
     return next((sign for sign in _SEPARATORS if sign in heading), ",")
 
