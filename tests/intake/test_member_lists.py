@@ -78,7 +78,12 @@ def test_json(tmp_path):
     given, _ = read_member_list(path, {"bar_kerf": 2})
     assert (given.name, given.stock.bar_kerf, given.stock.bars[0].length) == ("Hall", 2, 6000)
     assert given.members[0].outline == ((0, 0), (800, 0), (800, 200), (200, 200))
-    wrong = [("lenght", 1, "Did you mean length"), ("length", "1 m", "a number in mm"), ("id", "", "id")]
+    wrong = [
+        ("lenght", 1, "Did you mean length"),
+        ("length", "1 m", "a number in mm"),
+        ("id", "", "id"),
+        ("depth", "x", "depth"),
+    ]
     for key, value, words in wrong:
         path.write_text(json.dumps({**table, "members": [{**row, key: value}]}))
         with pytest.raises(Refused, match=rf"members\[0\].*{words}"):

@@ -65,7 +65,7 @@ NAMES = [
 def test_names_of_any_kind_pass_their_proof(tmp_path, gap):
     sides = {"a": 300, "b": 250, "h": 120, "ol": 25, "orr": 25}
     parts = [{"id": name, "quantity": 2, **sides, "row": k % 3} for k, name in enumerate(NAMES)]
-    table = {"name": "names", "sheet": [1600, 1200], "gap": gap, "trim": 10, "turning": "half", "parts": parts}
+    table = {"name": "na\nmes", "sheet": [1600, 1200], "gap": gap, "trim": 10, "turning": "half", "parts": parts}
     (tmp_path / "parts.json").write_text(json.dumps(table), encoding="utf-8")
     files = isomould.NestFiles(sheets=tmp_path / "cut", plan=tmp_path / "plan.pdf")
     layout = isomould.nest(tmp_path / "parts.json", tmp_path / "layout.json", "quick", files=files, jobs=1)

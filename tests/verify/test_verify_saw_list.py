@@ -62,7 +62,7 @@ NAMES = [
 
 def test_names_of_any_kind_pass_their_proof(tmp_path):
     members = [{"id": name, "section": "=S 日 x 2", "length": 700 + k} for k, name in enumerate(NAMES)]
-    table = {"name": "names", "bars": [{"section": "=S 日 x 2", "length": 3210.5}], "members": members}
+    table = {"name": "na\nmes", "bars": [{"section": "=S 日 x 2", "length": 3210.5}], "members": members}
     (tmp_path / "m.json").write_text(json.dumps(table), encoding="utf-8")
     for saw in ("saw.csv", "saw.xlsx"):
         files = isomould.NestFiles(plan=tmp_path / "saw.pdf", saw_list=tmp_path / saw)

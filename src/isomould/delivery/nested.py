@@ -179,4 +179,5 @@ def _stationery(name: str) -> Stationery:
 
 
 def _heading(name: str) -> str:
-    return name.strip()[:120] or "Part list"
+    """Give the name of a list as a title block holds it."""
+    return "".join(c if c.isprintable() else " " for c in name).strip()[:120] or "Part list"

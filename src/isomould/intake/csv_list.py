@@ -155,7 +155,7 @@ def _blank_pairs(lines: Sequence[Line]) -> list[str]:
 def _separator(text: str, file: str) -> str:
     """Take the first of semicolon, tab and comma that the heading has; a heading of one column has none."""
     heading = text.split("\n", 1)[0]
-    if not heading.strip("; \t\r,\""):
+    if not heading.strip('; \t\r,"'):
         refuse(file, "an empty first line", "a heading such as id,quantity,a,b,h,ol,orr")
     return next((sign for sign in _SEPARATORS if sign in heading), ",")
 

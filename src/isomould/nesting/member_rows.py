@@ -75,11 +75,13 @@ def _angle(value: object, field: str) -> float:
 
 def _outline(length: float, depth: object, ends: Sequence[float], field: str) -> tuple[tuple[float, float], ...]:
     """Give the outline of a flat bar, lower edge first; nothing where its ends are square or its width is not known."""
-    if depth is None or not any(ends):
+    if depth is None:
         return ()
     width = to_number(depth, f"{field}.depth")
     if width <= 0:
         refuse(f"{field}.depth", f"{width:g} mm", "greater than zero")
+    if not any(ends):
+        return ()
     (low, high), (off, over) = (_set_back(angle, width) for angle in ends)
     if min(length - low - off, length - high - over) <= 0:
         found = f"{length:g} mm with ends of {ends[0]:g}° and {ends[1]:g}° over {width:g} mm"
