@@ -22,6 +22,7 @@ from isomould.intake.read import Asked, read_part_list
 from isomould.intake.stock import read_stock
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Layout
+from isomould.nesting.member_rows import MemberList
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
 from isomould.nesting.settings import StockSettings
@@ -219,7 +220,7 @@ def nest(
 ) -> Layout | BarLayout:
     """Nest a part list of any origin and write the layout as JSON, and sheets and cutting plan where asked for.
 
-    A list of members is nested on bars: its layout, and the saw list where asked for. That search knows no effort.
+    A list of members is nested on bars: its layout, and the saw list where asked for.
 
     Parameters
     ----------
@@ -254,7 +255,8 @@ def nest(
     stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
     if members:
         _refuse_time_limit(stop)
-        return _nest_members(Path(instance), stock, targets, files.units, remark or _ignore)
+        listed = read_member_list(Path(instance), stock, files.units)
+        return _nest_members(listed, effort, targets, remark or _ignore)
     given = read_part_list(Path(instance), Asked(stock, files.units, files.layer))
     for note in given.notes:
         (remark or _ignore)(note)
@@ -272,12 +274,12 @@ def _refuse_time_limit(stop: Stop) -> None:
 
 
 def _nest_members(
-    path: Path, stock: Mapping[str, Any], targets: Targets, units: LengthUnit | None, remark: Callable[[Note], None]
+    listed: tuple[MemberList, tuple[Note, ...]], effort: Effort, targets: Targets, remark: Callable[[Note], None]
 ) -> BarLayout:
-    given, notes = read_member_list(path, stock, units)
+    given, notes = listed
     for note in notes:
         remark(note)
-    layout = nest_bars(given.members, given.stock)
+    layout = nest_bars(given.members, given.stock, effort)
     publish_bars(targets, layout, given)
     return layout
 
