@@ -24,7 +24,7 @@ QUICK = Search("quick")
 def prove(parts: tuple[Part, ...], stock: StockSettings, effort: Effort) -> None:
     layout = nest_sheets(parts, stock, Search(effort))
     assert check_layout(parts, stock, layout) == ()
-    assert layout.bound <= len(layout.sheets)
+    assert max(layout.bound, layout.pattern_bound or 0) <= len(layout.sheets)
     assert layout.price_bound <= layout.price
     assert not layout.unplaced
     assert set(layout.cut_trees) == {sheet.id for sheet in layout.sheets}

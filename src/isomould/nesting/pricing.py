@@ -97,5 +97,5 @@ def _stacks(frame: Frame, heights: Ints, worth: Floats) -> list[list[int]]:
 
 def _most(frame: Frame, heights: Ints, worth: Floats) -> float:
     """Give no less than what the best stack is worth: heights are rounded down."""
-    steps = (heights + frame.gap) // frame.step
+    steps = np.maximum((heights + frame.gap) // frame.step, 1)
     return float(stack_up(steps, worth[:, None], -(-frame.room // frame.step)).worth[-1, 0])

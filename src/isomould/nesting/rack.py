@@ -124,7 +124,7 @@ def _frames(
 def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> float:
     """Give the price if any sheet has one, else the area, as shares of the largest; sheets for nothing cost little."""
     dearest = max(other.price for other in sheets)
-    return sheet.price / dearest + FREE * share if dearest else share
+    return sheet.price / dearest or FREE * share if dearest else share
 
 
 def classes_by_kind(classes: Sequence[PartClass], turns: tuple[int, ...], grid: Grid) -> tuple[Kind, ...]:
