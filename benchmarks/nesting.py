@@ -27,7 +27,7 @@ from isomould.nesting.search import Search
 
 ALGORITHMS = (rectpack.MaxRectsBssf, rectpack.MaxRectsBaf, rectpack.MaxRectsBlsf, rectpack.SkylineMwfl)
 ORDERS = (rectpack.SORT_AREA, rectpack.SORT_LSIDE, rectpack.SORT_SSIDE)
-HEADER = ("instance", "pieces", "sheets", "bound", "gap", "yield %", "seconds", "rectpack", "spyrrow")
+HEADER = ("instance", "pieces", "sheets", "bound", "gap", "of the pattern", "yield %", "seconds", "rectpack", "spyrrow")
 
 
 def main() -> None:
@@ -58,7 +58,7 @@ def measure(instance: Instance, task: Search) -> tuple[object, ...]:
     seconds = f"{processor() - start:.1f} / {time.perf_counter() - clock:.1f}"
     findings = check_layout(instance.parts, instance.stock, layout)
     assert not findings, findings[0]
-    counts = (len(layout.placements), len(layout.sheets), layout.bound, layout.gap_to_bound)
+    counts = (len(layout.placements), len(layout.sheets), layout.bound, layout.gap_to_bound, layout.pattern_bound or "")
     return (instance.name, *counts, f"{layout.yield_percent:.2f}", seconds)
 
 
