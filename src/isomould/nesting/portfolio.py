@@ -9,7 +9,7 @@ from isomould.nesting.crew import Crew, gather
 from isomould.nesting.leftover import leave_offcut
 from isomould.nesting.search import Found, Search, first_sheets, improve
 
-LOSS = 1.08
+LOSS = 1.05
 """Sheets of a first filling over their bound from which stacking is what loses, so that it pays to plan it."""
 
 
