@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from isomould.comparison import Compared, compare_families, families_table
-from isomould.delivery.nested import Targets, check_targets, publish_bars, publish_nest
+from isomould.delivery.nested import Targets, check_targets, publish_bars, publish_nest, refuse_overwriting
 from isomould.delivery.pictures import View, design_picture
 from isomould.design import Design, make_design, requests_of
 from isomould.documents.overview import Fact, kit_facts
@@ -252,6 +252,7 @@ def nest(
     targets = Targets(Path(out), files.sheets, files.plan, files.saw_list, files.overwrite)
     members = lists_members(Path(instance))
     check_targets(targets, "members" if members else "parts")
+    refuse_overwriting(targets, [Path(instance), *([files.stock] if files.stock else [])])
     stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
     if members:
         _refuse_time_limit(stop)
@@ -261,7 +262,8 @@ def nest(
     for note in given.notes:
         (remark or _ignore)(note)
     layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))
-    layout = replace(layout, status="interrupted") if stop.interrupted else layout
+    # An interrupt that came after the search had ended has cost nothing: such a layout keeps its status.
+    layout = replace(layout, status="interrupted") if stop.interrupted and not layout.reproducible else layout
     with workers(jobs) as spread:
         publish_nest(targets, layout, given, spread)
     return layout

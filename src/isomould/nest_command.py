@@ -11,7 +11,7 @@ import click
 
 import isomould
 from isomould.console import EFFORT, INTERRUPTED, catch_signals, say, warn
-from isomould.errors import Note
+from isomould.errors import Note, Refused
 from isomould.intake.member_list import lists_members
 from isomould.intake.stock import bar_of, length_of, sheet_of
 from isomould.nesting.layout import BarLayout, Layout
@@ -74,6 +74,9 @@ _KEYS = {
 }
 """Keys of the `[stock]` table by the options that set them."""
 
+_OF_BARS = {"bar", "bar_kerf", "bar_trim", "bar_ends"}
+"""Those that speak of members; the others speak of flat parts."""
+
 
 @click.command()
 @_stocked
@@ -100,7 +103,9 @@ def nest(
 ) -> None:
     """Nest parts of any origin on sheets, members on bars: JSON, CSV, a folder of drawings (DXF), or a delivery."""
     stop, tell = Stop(time_limit), _say_nothing if quiet else warn
-    if lists_members(instance):
+    members = lists_members(instance)
+    _refuse_stock_of_others(files["changes"], members)
+    if members:
         tell(f"nesting {instance}")
     else:
         catch_signals(Interrupting(stop))
@@ -110,6 +115,18 @@ def nest(
     say(f"{_worth(layout)}, status {layout.status}: {out}")
     if stop.interrupted:
         sys.exit(INTERRUPTED)
+
+
+def _refuse_stock_of_others(changes: dict[str, Any], members: bool) -> None:
+    """An option that changes nothing misleads: who gives `--kerf` with members means `--bar-kerf`."""
+    for option, key in _KEYS.items():
+        if key in changes and (option in _OF_BARS) != members:
+            listed, others = ("members", "flat parts") if members else ("flat parts", "members")
+            ours = [f"--{name.replace('_', '-')}" for name in _KEYS if (name in _OF_BARS) == members]
+            way_out = f"Leave it out; the options of such a list are {', '.join(ours)}."
+            raise Refused(
+                "E-OUT-12", f"--{option.replace('_', '-')}", f"a list of {listed}", f"a list of {others}", way_out
+            )
 
 
 def _worth(layout: Layout | BarLayout) -> str:

@@ -16,6 +16,7 @@ from pypdf import PdfReader
 import isomould
 from isomould.cli import main
 from isomould.nest_command import Interrupting
+from isomould.nesting.nest import nest_sheets
 from isomould.nesting.stop import Stop
 from museum import SMALL, changed
 
@@ -232,6 +233,7 @@ def test_members_are_nested_on_bars(tmp_path):
     assert (proved.returncode, "3 checks passed" in proved.stdout) == (0, True)
     for wrong, word in ((("--sheets", "cut"), "--sheets"), (("--saw-list", "saw.pdf"), "--saw-list"),
                         (("--time-limit", "1"), "--time-limit"), (("--bar", "RHS 50x3=3000"), "M1"),
+                        (("--kerf", "3"), "--kerf"), (("--sheet", "3000x2000"), "--sheet"),
                         (("--bar", "6 m"), "--bar")):  # fmt: skip
         refused = run(*(command if "bar" not in wrong[0] else command[:4]), *wrong, folder=tmp_path)
         assert (refused.returncode, word in refused.stderr) == (2, True), refused.stderr
@@ -248,7 +250,9 @@ def test_quick_stock_by_options(tmp_path):
     layout = json.loads((tmp_path / "layout.json").read_text())
     assert {sheet["stock"] for sheet in layout["sheets"]} <= {"3000 x 2000", "2400 x 1200"}
     assert (layout["nesting"]["gap_mm"], layout["nesting"]["kerf_mm"], layout["nesting"]["trim_mm"]) == (6.35, 2, 20)
-    for wrong in (("--sheet", "3000"), ("--sheet", "3x2x1"), ("--gap", "5 miles"), ("--gap", "nan"), ("--gap", "-1")):
+    wrongs = (("--sheet", "3000"), ("--sheet", "3x2x1"), ("--gap", "5 miles"), ("--gap", "nan"), ("--gap", "-1"),
+              ("--bar-kerf", "3"), ("--bar", "A=6 m"))  # fmt: skip
+    for wrong in wrongs:
         refused = run(*command, *wrong, folder=tmp_path)
         assert (refused.returncode, "Traceback" in refused.stderr) == (2, False)
 
@@ -257,6 +261,34 @@ def test_a_time_limit_is_marked(tmp_path):
     (tmp_path / "parts.json").write_text(json.dumps(many(150)))
     assert run("nest", "parts.json", "--out", "layout.json", "--time-limit", "0", folder=tmp_path).returncode == 0
     assert json.loads((tmp_path / "layout.json").read_text())["reproducible"] is False
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        ("--out", "m.csv"),
+        ("--out", "./stock.toml"),
+        ("--out", "layout.json", "--saw-list", "m.csv"),
+        ("--out", "both.csv", "--saw-list", "both.csv"),
+    ],
+)
+def test_nest_never_writes_over_what_it_reads(tmp_path, wrong):
+    """Nor two things into one file: the list of a user is all there is of it."""
+    (tmp_path / "m.csv").write_text("section;mark;qty;length\nFL200*12;M1;7;1505,5\n")
+    (tmp_path / "stock.toml").write_text('[stock]\nbars = [{section = "FL200*12", length = "6 m"}]\n')
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    refused = run("nest", "m.csv", "--stock", "stock.toml", *wrong, folder=tmp_path)
+    assert (refused.returncode, "E-OUT-13" in refused.stderr, Path(wrong[-1]).name in refused.stderr) == (2, True, True)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_search_that_had_ended_keeps_its_status(tmp_path, monkeypatch):
+    """An interrupt while sheets are drawn and proved: the layout is what it would be without."""
+    (tmp_path / "parts.json").write_text(json.dumps(many(12)))
+    stop = Stop()
+    monkeypatch.setattr(isomould.api, "nest_sheets", lambda *given: [nest_sheets(*given), stop.interrupt()][0])
+    layout = isomould.nest(tmp_path / "parts.json", tmp_path / "layout.json", "quick", stop)
+    assert (stop.interrupted, layout.status, layout.reproducible) == (True, "complete", True)
 
 
 def test_nest_refuses_what_fits_no_sheet(tmp_path):

@@ -66,6 +66,31 @@ def check_targets(targets: Targets, listed: Literal["parts", "members"]) -> None
         refuse_taken(targets.sheets, targets.overwrite)
 
 
+def refuse_overwriting(targets: Targets, read: Sequence[Path]) -> None:
+    """Refuse targets in the place of what is read, or of each other.
+
+    Raises
+    ------
+    Refused
+        E-OUT-13, naming the option and the file.
+    """
+    taken = {path.resolve() for path in read}
+    named = {
+        "--out": targets.layout,
+        "--plan": targets.plan,
+        "--saw-list": targets.saw_list,
+        "--sheets": targets.sheets,
+    }
+    for option, path in named.items():
+        if path is None:
+            continue
+        if path.resolve() in taken:
+            raise Refused(
+                "E-OUT-13", option, str(path), "a place that is not read or written besides", "Choose another."
+            )
+        taken.add(path.resolve())
+
+
 def publish_nest(targets: Targets, layout: Layout, given: PartList, spread: Spread) -> None:
     """Write layout, sheets and cutting plan beside their places, prove them there, and only then publish them.
 
