@@ -78,6 +78,10 @@ class TestCsv:
         with pytest.raises(Refused, match=r"at least one stock sheet.*--stock"):
             read_part_list(write(tmp_path / "p.csv", GOOD))
 
+    def test_of_a_sheet_without_a_name_just_the_name_is_missing(self, tmp_path):
+        with pytest.raises(Refused, match=r"sheets\.0\.name: missing\. .*Give the value"):
+            read_part_list(write(tmp_path / "p.csv", GOOD), Asked({"sheets": [{"width": 3000, "height": 2000}]}))
+
 
 class TestFolder:
     def folder(self, tmp_path, table="file,mark,quantity\nA.dxf,A,4\n"):

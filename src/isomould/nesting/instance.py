@@ -130,6 +130,8 @@ def make_stock(given: Mapping[str, Any], file: str, needs: Literal["sheets", "ba
         detail = fault.errors()[0]
         field = ".".join(str(key) for key in detail["loc"]) or "sheets, gap, trim, kerf"
         found, _, limit = detail["msg"].removeprefix("Value error, ").partition("; ")
+        if detail["type"] == "missing":
+            refuse(f"{file}: {field}", "missing", "a value as the [stock] table asks", "Give the value.")
         shown = "" if limit else f"{show(detail['input'])}: "
         refuse(f"{file}: {field}", f"{shown}{found}", limit or "a value as the [stock] table asks", "Change the value.")
 
