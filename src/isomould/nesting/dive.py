@@ -129,7 +129,11 @@ def dive_part(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, cr
     """Better a filling by a dive into its emptiest sheets."""
     ranked = sorted(plans, key=lambda plan: area_of(rack, plan) / plan.frame.cost)
     part, kept = ranked[:PART], ranked[PART:]
-    own = replace(task, progress=lambda done, total, sheets, _: task.tell(done, total, len(kept) + sheets, rack.goal))
+
+    def tell(done: int, total: int, sheets: int, _: int) -> None:
+        task.tell(done, total, len(kept) + sheets, rack.goal)
+
+    own = replace(task, progress=tell)
     goal = max(rack.goal - len(kept), 0)
     found = dive(replace(rack, goal=goal), part, pieces_of(part, len(counts)), own, crew)
     return Found(kept + found.plans, found.ended)
