@@ -157,6 +157,6 @@ def test_the_best_effort_dives_into_the_emptiest_sheets() -> None:
     rack, counts = rack_of(stadium()[::2], LARGE)
     first = fill_sheets(rack, counts, rack.areas)
     with gather(rack, 1) as crew:
-        found = dive_part(rack, first, counts, Search("best"), crew)
+        found = dive_part(rack, first, counts, Search("best"), crew, 10)
     assert (pieces_of(found.plans, len(counts)) == counts).all()
     assert len(found.plans) < len(first)

@@ -35,17 +35,11 @@ AGAIN = 3
 CALM = 0.8
 """How near the worth for pricing stays to that of the best bound; the rest is the worth in the programme."""
 
-EASE = 0.25
-"""Part of a sheet that a dive may lose by and by."""
-
 CHUNK = 100
 """Pieces that a cover sees at a time, drawn by lot."""
 
 LAST = 400
 """Pieces left from which a cover sees all of them."""
-
-PART = 24
-"""Emptiest sheets that are dived into at a time."""
 
 SHARE = 0.15
 """Part of the sheets still to come that a step fixes."""
@@ -101,7 +95,7 @@ def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: C
         costs.append(solution.cost)
         if done < COVERS:
             best = min(best, _cover(state, counts, solution), key=cost_of)
-        elif _still(costs) or _ripe(state, solution, best) or not _generate(state, counts, solution):
+        elif _still(costs) or _proved(state, best) or not _generate(state, counts, solution):
             break
     bound = math.ceil(state.bound - USED)
     return replace(_sink(state, counts, best, task), pattern_bound=bound)
@@ -111,12 +105,9 @@ def _still(costs: Sequence[float]) -> bool:
     return len(costs) > COVERS + SEEN and costs[-SEEN - 1] - costs[-1] < SEEN * STILL
 
 
-def _ripe(state: _Dive, solution: Solution, best: list[SheetPlan]) -> bool:
-    """Tell whether a dive is sure of the least number of sheets, or of none less than the best has."""
-    if len(state.rack.stock) > 1:
-        return False
-    least = math.ceil(state.bound - USED)
-    return least >= len(best) or least - solution.cost >= EASE
+def _proved(state: _Dive, best: list[SheetPlan]) -> bool:
+    """Tell whether no sheets of strips can be fewer than the best."""
+    return len(state.rack.stock) == 1 and math.ceil(state.bound - USED) >= len(best)
 
 
 def _generate(state: _Dive, counts: Ints, solution: Solution) -> bool:
@@ -125,10 +116,10 @@ def _generate(state: _Dive, counts: Ints, solution: Solution) -> bool:
     return any(_price(state, counts, worth, solution.slots) for worth in worths)
 
 
-def dive_part(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
-    """Better a filling by a dive into its emptiest sheets."""
+def dive_part(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew, sheets: int) -> Found:
+    """Better a filling by a dive into its emptiest sheets, `sheets` of them."""
     ranked = sorted(plans, key=lambda plan: area_of(rack, plan) / plan.frame.cost)
-    part, kept = ranked[:PART], ranked[PART:]
+    part, kept = ranked[:sheets], ranked[sheets:]
 
     def tell(done: int, total: int, sheets: int, _: int) -> None:
         task.tell(done, total, len(kept) + sheets, rack.goal)

@@ -9,6 +9,9 @@ from isomould.nesting.crew import Crew, gather
 from isomould.nesting.leftover import leave_offcut
 from isomould.nesting.search import Found, Search, first_sheets, improve
 
+PARTS = (24, 30)
+"""Emptiest sheets that are dived into at a time."""
+
 LOSS = 1.05
 """Sheets of a first filling over their bound from which stacking is what loses, so that it pays to plan it."""
 
@@ -39,9 +42,10 @@ def _find(rack: Rack, counts: Ints, task: Search, crew: Crew) -> Found:
 
 
 def _dive_on(rack: Rack, found: Found, counts: Ints, task: Search, crew: Crew) -> Found:
-    """Dive into the emptiest sheets, again as long as that saves any."""
-    saved = True
-    while saved and found.ended and len(found.plans) > rack.goal:
-        before, found = found, dive.dive_part(rack, found.plans, counts, task, crew)
-        saved = cost_of(found.plans) < cost_of(before.plans) - dive.USED
+    """Dive into the emptiest sheets, again as long as that saves any, and then into more of them."""
+    for sheets in PARTS:
+        saved = True
+        while saved and found.ended and len(found.plans) > rack.goal:
+            before, found = found, dive.dive_part(rack, found.plans, counts, task, crew, sheets)
+            saved = cost_of(found.plans) < cost_of(before.plans) - dive.USED
     return found

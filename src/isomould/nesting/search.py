@@ -17,7 +17,7 @@ from isomould.nesting.sheets import SheetPlan
 
 Effort = Literal["quick", "normal", "best"]
 
-ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 2, "best": 3}
+ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 2, "best": 2}
 """Re-fillings per sheet."""
 
 POOL = 700
