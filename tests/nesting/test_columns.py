@@ -160,3 +160,12 @@ def test_the_best_effort_dives_into_the_emptiest_sheets() -> None:
         found = dive_part(rack, first, counts, Search("best"), crew, 10)
     assert (pieces_of(found.plans, len(counts)) == counts).all()
     assert len(found.plans) < len(first)
+
+
+def test_columns_know_parts_of_which_just_the_box_fits() -> None:
+    """Legs so unequal that a strip holds the box, but not the trapezoid with its set-up."""
+    long = Part("A", np.array([[0, 0], [2980, 0], [2980, 800], [200, 800]], dtype=float), 6)
+    stock = SMALL.model_copy(update={"turning": "half"})
+    layout = nest_sheets([long], stock, Search("normal"))
+    assert check_layout([long], stock, layout) == ()
+    assert (len(layout.sheets), layout.pattern_bound) == (6, 6)

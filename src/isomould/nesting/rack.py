@@ -1,7 +1,7 @@
 """From parts and stock to what the search works on: classes of equal outlines, kinds and frames."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -136,11 +136,13 @@ def classes_by_kind(classes: Sequence[PartClass], turns: tuple[int, ...], grid: 
 def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
     """Give the frame of a case, with what fits into it."""
     gap = round_away(grid.gap)
-    fitting = (_fitting(kind, case.length) for kind in kinds if kind.height <= case.height)
+    capacity = (case.length + gap) // grid.step
+    low = (kind for kind in kinds if kind.height <= case.height)
+    fitting = (part for kind in low for part in _fitting(kind, case.length, capacity, grid))
     return Frame(
         stock=case.stock,
         turned=case.turned,
-        capacity=(case.length + gap) // grid.step,
+        capacity=capacity,
         room=case.height + gap,
         gap=gap,
         step=grid.step,
@@ -150,8 +152,13 @@ def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
     )
 
 
-def _fitting(kind: Kind, length: int) -> Kind:
-    return Kind(kind.height, kind.setup, tuple(item for item in kind.items if item.shape.width <= length))
+def _fitting(kind: Kind, length: int, capacity: int, grid: Grid) -> tuple[Kind, Kind]:
+    """Give the items that fit with the set-up of their kind, and those of which just the box does."""
+    items = [item for item in kind.items if item.shape.width <= length]
+    nested = tuple(item for item in items if item.size + kind.setup <= capacity)
+    boxes = [grid.box(item.part, item.shape) for item in items if item.size + kind.setup > capacity]
+    alone = tuple(replace(box, size=min(box.size, capacity)) for box in boxes)
+    return replace(kind, items=nested), Kind(kind.height, 0, alone)
 
 
 def piece_counts(classes: Sequence[PartClass]) -> Ints:

@@ -118,14 +118,8 @@ def _next_strip(frame: Frame, counts: Ints, values: Floats, room: int) -> Run:
     kinds = [kind for kind in frame.kinds if kind.height + frame.gap <= room]
     priced = price(kinds, counts, values, frame.capacity)
     if not priced.worth.any():
-        return _alone(kinds, counts)
+        return ()
     return once(trace(priced, _best_class(priced, frame, room), frame.capacity), counts.copy())
-
-
-def _alone(kinds: Sequence[Kind], counts: Ints) -> Run:
-    """Give a strip of one part whose box just fits, where its trapezoid with a set-up does not."""
-    items = (item for kind in reversed(kinds) for item in kind.items if counts[item.part])
-    return next((((item,),) for item in items), ())
 
 
 def once(blocks: Sequence[Block], left: Ints) -> Run:

@@ -55,6 +55,10 @@ class Grid:
         """Give the grid steps that hold a length."""
         return int(np.ceil(length / self.step - 1e-9))
 
+    def box(self, part: int, shape: Shape) -> Item:
+        """Give an item that stands in its box."""
+        return Item(part, shape, self.up(shape.width + round_away(self.gap)))
+
 
 def sort_kinds(shapes: Sequence[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> tuple[Kind, ...]:
     """Group (part, shape) into kinds, ascending in height; a kind of one piece counts as its box."""
@@ -101,9 +105,7 @@ def _kind(alike: list[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> 
 
 
 def _boxes(alike: list[tuple[int, Shape]], grid: Grid) -> Kind:
-    gap = round_away(grid.gap)
-    items = tuple(Item(part, shape, grid.up(shape.width + gap)) for part, shape in alike)
-    return Kind(alike[0][1].height, 0, items)
+    return Kind(alike[0][1].height, 0, tuple(grid.box(part, shape) for part, shape in alike))
 
 
 @dataclass(frozen=True, eq=False)
