@@ -15,7 +15,7 @@ from pypdf import PdfReader
 
 import isomould
 from isomould.cli import main
-from isomould.nest_command import Interrupting
+from isomould.cli.nest_command import Interrupting
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.stop import Stop
 from museum import SMALL, changed

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from typing import get_args
 
+import click
 import pytest
 
 import isomould
@@ -50,7 +51,9 @@ def test_every_room_and_module_of_the_architecture_exists():
 
 def test_commands_have_functions_and_documentation():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for command in cli.commands:
+    commands = cli.list_commands(click.Context(cli))
+    assert commands
+    for command in commands:
         assert callable(getattr(isomould, command))
         assert f"isomould {command}" in text
 

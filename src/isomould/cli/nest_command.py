@@ -10,7 +10,8 @@ from typing import Any, get_args
 import click
 
 import isomould
-from isomould.console import EFFORT, INTERRUPTED, catch_signals, say, warn
+from isomould.cli.console import INTERRUPTED, catch_signals, say, warn
+from isomould.cli.options import EFFORT
 from isomould.errors import Note, Refused
 from isomould.intake.member_list import lists_members
 from isomould.intake.stock import bar_of, length_of, sheet_of

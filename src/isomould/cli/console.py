@@ -7,7 +7,6 @@ from contextlib import suppress
 import click
 from rich.console import Console
 
-EFFORT = click.Choice(["quick", "normal", "best"])
 INTERRUPTED = 130
 """The exit code after Ctrl-C."""
 

@@ -1,0 +1,83 @@
+"""The program: its commands, loaded when they are called, and how each of its runs ends.
+
+Exit codes: 0 done, 1 certificate failed, 2 input refused, 3 I/O fault, 130 interrupted.
+"""
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import click
+
+from isomould.cli.console import INTERRUPTED, catch_signals, warn
+from isomould.errors import IsomouldError
+
+_COMMANDS = {
+    "new": "new_command",
+    "check": "check_command",
+    "build": "build_command",
+    "verify": "verify_command",
+    "schedule": "build_command",
+    "compare": "compare_command",
+    "nest": "nest_command",
+    "draw": "draw_command",
+}
+"""The module of each command, in the order of the help page."""
+
+
+class _Program(click.Group):
+    """A group that imports a command's module when the command is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in _COMMANDS:
+            return None
+        module = import_module(f"isomould.cli.{_COMMANDS[cmd_name]}")
+        return getattr(module, cmd_name)
+
+
+@click.group(cls=_Program, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="isomould")
+def cli() -> None:
+    """From two curves to everything a shop needs to build a free-form gridshell."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line; every failure that users can meet is one message and an exit code."""
+    catch_signals(_terminate, "SIGTERM", "SIGBREAK")
+    code = _run(arguments)
+    if code == INTERRUPTED:
+        # Threads of a pool of workers may hold locks that the interrupt left closed: do not wait for them.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
+
+
+def _terminate(*_: Any) -> None:
+    raise KeyboardInterrupt
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    try:
+        result = cli.main(arguments, standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except IsomouldError as error:
+        warn(f"isomould: {error}")
+        return error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        warn("isomould: interrupted; nothing was published")
+        return INTERRUPTED
+    except OSError as error:
+        warn(f"isomould: E-PRINT: the output cannot be written ({error.strerror or error}).")
+        return 3
+    except MemoryError:
+        warn("isomould: E-MEMORY: not enough memory. Divide the curves more coarsely, or lower limits.max_panels.")
+        return 2
+    return result if isinstance(result, int) else 0
