@@ -20,8 +20,8 @@ import numpy as np
 import rectpack
 import spyrrow
 
+from isomould.intake.instance import Instance, read_instance
 from isomould.nesting.checker import check_layout
-from isomould.nesting.instance import Instance, read_instance
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Search
 

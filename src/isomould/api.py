@@ -18,11 +18,11 @@ from isomould.errors import Note, Refused
 from isomould.family import kit_table, make_designs
 from isomould.form.survey import Division, survey
 from isomould.intake.member_list import lists_members, read_member_list
+from isomould.intake.member_rows import MemberList
 from isomould.intake.read import Asked, read_part_list
 from isomould.intake.stock import read_stock
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Layout
-from isomould.nesting.member_rows import MemberList
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Effort, Progress, Search
 from isomould.nesting.settings import StockSettings

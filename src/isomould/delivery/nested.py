@@ -16,10 +16,10 @@ from isomould.documents.shop.saw_list import saw_list
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.documents.stock_tables import bar_table, saw_table
 from isomould.errors import CertificateFailed, Refused
+from isomould.intake.member_rows import MemberList
 from isomould.intake.part_list import Hole, PartList
 from isomould.nesting.files import bars_to_json, layout_to_json
 from isomould.nesting.layout import BarLayout, Layout, Part
-from isomould.nesting.member_rows import MemberList
 from isomould.templates import template_folder
 from isomould.verify import Certificate, verify_nest
 from isomould.workers import Spread

@@ -1,1 +1,1 @@
-"""Part lists of others: JSON, CSV and folders of drawings become instances of the nesting room."""
+"""Part lists of others: JSON, CSV and folders of drawings become parts with their stock."""

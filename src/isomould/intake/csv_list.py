@@ -9,9 +9,9 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from isomould.errors import Note
+from isomould.intake.instance import read_text
 from isomould.intake.numbers import decimal_sign, to_count, to_number
-from isomould.nesting.instance import read_text
-from isomould.nesting.part_rows import TRAPEZOID, refuse, show
+from isomould.intake.part_rows import TRAPEZOID, refuse, show
 from isomould.units import MM_PER_UNIT, LengthUnit
 
 _HEADER = re.compile(r"(?P<name>.*?)[ _]*(?:[(\[ _])(?P<unit>mm|cm|m|in|ft)[)\]]?")

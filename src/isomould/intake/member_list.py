@@ -6,9 +6,9 @@ from typing import Any
 
 from isomould.errors import Note
 from isomould.intake.csv_list import MEMBERS, Line, Sheet, heading_names, read_sheet
-from isomould.nesting.instance import make_stock, parse_json, read_text
-from isomould.nesting.member_rows import MemberList, read_members, refuse_unlike_ends
-from isomould.nesting.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show
+from isomould.intake.instance import make_stock, parse_json, read_text
+from isomould.intake.member_rows import MemberList, read_members, refuse_unlike_ends
+from isomould.intake.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show
 from isomould.units import LengthUnit
 
 _STOCK = {"bars", "bar_kerf", "bar_trim", "bar_ends"}

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable
 
-from isomould.nesting.part_rows import refuse, show
+from isomould.intake.part_rows import refuse, show
 
 _POINT = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 _COMMA = re.compile(r"[+-]?(?:\d+(?:,\d*)?|,\d+)")

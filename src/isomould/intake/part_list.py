@@ -8,7 +8,7 @@ import numpy as np
 from isomould.arrays import Floats, round_um
 from isomould.documents.drawing import Circle, Polyline
 from isomould.errors import Note
-from isomould.nesting.instance import Instance
+from isomould.intake.instance import Instance
 from isomould.nesting.layout import Id, Placement
 
 Hole = Polyline | Circle

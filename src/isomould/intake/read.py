@@ -10,11 +10,11 @@ from isomould.arrays import Floats
 from isomould.errors import Note
 from isomould.intake.csv_list import PARTS, Line, Sheet, read_sheet
 from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
+from isomould.intake.instance import Instance, make_stock, read_instance
 from isomould.intake.numbers import to_count
 from isomould.intake.part_list import PartList
-from isomould.nesting.instance import Instance, make_stock, read_instance
+from isomould.intake.part_rows import TRAPEZOID, Row, read_parts, refuse
 from isomould.nesting.layout import Part
-from isomould.nesting.part_rows import TRAPEZOID, Row, read_parts, refuse
 from isomould.units import LengthUnit
 
 QUANTITIES = "parts.csv"

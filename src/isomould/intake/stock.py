@@ -5,8 +5,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from isomould.nesting.instance import read_text
-from isomould.nesting.part_rows import mapping, refuse
+from isomould.intake.instance import read_text
+from isomould.intake.part_rows import mapping, refuse
 from isomould.units import parse_length
 
 

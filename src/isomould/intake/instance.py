@@ -19,8 +19,8 @@ from typing import Any, Literal, NoReturn
 from pydantic import ValidationError
 
 from isomould.errors import OutputFault
+from isomould.intake.part_rows import get, mapping, numbers, read_parts, refuse, refuse_unknown, show
 from isomould.nesting.layout import Part
-from isomould.nesting.part_rows import get, mapping, numbers, read_parts, refuse, refuse_unknown, show
 from isomould.nesting.settings import StockSettings
 
 _STOCK = {"sheets", "gap", "trim", "kerf", "turning", "turn_over", "guillotine"}

@@ -4,8 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from isomould.nesting.layout import Member
-from isomould.nesting.part_rows import (
+from isomould.intake.part_rows import (
     Row,
     get,
     mapping,
@@ -17,6 +16,7 @@ from isomould.nesting.part_rows import (
     to_number,
     to_quantity,
 )
+from isomould.nesting.layout import Member
 from isomould.nesting.settings import StockSettings
 
 STEEPEST = 80.0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from isomould.errors import OutputFault, Refused
-from isomould.nesting.instance import parse_instance, read_instance
+from isomould.intake.instance import parse_instance, read_instance
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.search import Search
 
