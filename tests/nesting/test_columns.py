@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 from nesting_examples import GLASS, trapezoid
 
 from isomould.arrays import Ints
@@ -80,7 +81,7 @@ def test_part_that_fits_only_the_dear_size_bounds_price_and_number() -> None:
     long, short = (SheetStock(name=n, width=w, height=1000, price=p) for n, w, p in (("l", 3000, 10), ("s", 1000, 1)))
     stock = StockSettings(sheets=(long, short), gap=0)
     outlines = [trapezoid(3000, 900, 0, 0)] * 3 + [trapezoid(1000, 1000, 0, 0)] * 9
-    bound = bound_stock(outlines, stock)
+    bound = bound_stock([shapely.Polygon(outline) for outline in outlines], stock)
     assert (bound.sheets, bound.price, bound.kind) == (6, 39.0, "lp")
 
 

@@ -14,6 +14,7 @@ from isomould.nesting.checker import check_layout
 from isomould.nesting.files import layout_from_json, layout_to_json
 from isomould.nesting.layout import Layout, Part
 from isomould.nesting.nest import nest_blanks, nest_sheets
+from isomould.nesting.rack import sort_classes
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.settings import SheetStock, StockSettings
 
@@ -191,3 +192,31 @@ def test_the_emptiest_sheet_is_squeezed(monkeypatch: pytest.MonkeyPatch) -> None
 def _offcut(layout: Layout) -> float:
     assert layout.offcut is not None
     return layout.offcut.width * layout.offcut.height
+
+
+class TestHolesInBounds:
+    STOCK = StockSettings(sheets=(SheetStock(name="s", width=2100, height=1050),), gap=5)
+
+    def frame(self, quantity: int) -> Part:
+        hole = np.array([[100.0, 100.0], [900.0, 100.0], [900.0, 900.0], [100.0, 900.0]])
+        return Part("F", trapezoid(1000, 1000, 0, 0), quantity, holes=(hole,))
+
+    def test_a_bound_counts_the_room_in_holes(self) -> None:
+        """Two frames and eight squares lie on one sheet, four squares in each frame: 350 + 5 + 350 < 800 - 2 * 5."""
+        told: list[int] = []
+        search = Search("quick", lambda *numbers: told.append(numbers[3]))
+        layout = nest_sheets([self.frame(2), Part("S", trapezoid(350, 350, 0, 0), 8)], self.STOCK, search)
+        assert layout.bound == 1
+        assert set(told) <= {1}
+
+    def test_what_the_gap_takes_of_a_hole_is_not_counted(self) -> None:
+        """A frame takes 1005² less the hole without half the gap all round, 795²; nine sheets are full of twenty."""
+        (frame, gap) = self.frame(20), 5.0
+        need = 20 * (1005**2 - (4 - np.pi) * gap**2 / 4 - 795**2)
+        room = 2105 * 1055 - (4 - np.pi) * gap**2 / 4
+        layout = nest_sheets([frame], self.STOCK, Search("quick"))
+        assert layout.bound == int(np.ceil(need / room))
+
+    def test_parts_that_differ_in_holes_alone_are_two_classes(self) -> None:
+        plain = Part("P", trapezoid(1000, 1000, 0, 0), 2)
+        assert [len(kind.pieces) for kind in sort_classes([plain, self.frame(3), replace(plain, id="Q")])] == [4, 3]

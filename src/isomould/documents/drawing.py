@@ -92,22 +92,22 @@ def _arc_areas(chord: Floats, bulge: Floats) -> Floats:
     return (angle - np.sin(angle)) * radius**2 / 2
 
 
-def chords(polyline: Polyline) -> Floats:
-    """Give the points (m, 2) of a closed polyline with its arcs cut into short chords, mm.
+def chords(polyline: Polyline, pieces: int = _ARC_PIECES) -> Floats:
+    """Give the points (m, 2) of a closed polyline with its arcs cut into so many chords, mm.
 
     The centre of an arc of angle φ from a to b is (a + b)/2 + i (b − a)/2 · cot(φ/2).
     """
     start, end = (part @ np.array([1, 1j]) for part in segment_ends(polyline))
-    pieces = [_arc(*arc) for arc in zip(start, end, bulges(polyline), strict=True)]
-    return np.concatenate(pieces).view(float).reshape(-1, 2)
+    arcs = [_arc(*arc, pieces) for arc in zip(start, end, bulges(polyline), strict=True)]
+    return np.concatenate(arcs).view(float).reshape(-1, 2)
 
 
-def _arc(start: complex, end: complex, bulge: float) -> NDArray[np.complex128]:
+def _arc(start: complex, end: complex, bulge: float, pieces: int) -> NDArray[np.complex128]:
     if bulge == 0:
         return np.array([start])
     angle = 4 * np.arctan(bulge)
     centre = (start + end) / 2 + 0.5j * (end - start) / np.tan(angle / 2)
-    return centre + (start - centre) * np.exp(1j * angle * np.arange(_ARC_PIECES) / _ARC_PIECES)
+    return centre + (start - centre) * np.exp(1j * angle * np.arange(pieces) / pieces)
 
 
 def bulges(polyline: Polyline) -> Floats:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -10,6 +10,7 @@ from isomould.arrays import Floats
 from isomould.errors import Note
 from isomould.intake.csv_list import PARTS, Line, Sheet, read_sheet
 from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
+from isomould.intake.hole_rings import ring_around
 from isomould.intake.instance import Instance, make_stock, read_instance
 from isomould.intake.numbers import to_count
 from isomould.intake.part_list import PartList
@@ -108,6 +109,8 @@ def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes:
     """Add the holes of the drawings, and say what of them is not as drawn."""
     pairs = [(part, one) for part, one in zip(instance.parts, drawn, strict=True) if one is not None]
     holes = {part.id: one.holes for part, one in pairs if one.holes}
+    rings = {mark: tuple(ring_around(hole) for hole in cut) for mark, cut in holes.items()}
+    parts = tuple(replace(part, holes=rings.get(part.id, ())) for part in instance.parts)
     rounded = [str(part.id) for part, one in pairs if one.rounded]
     ignored = sorted({layer for _, one in pairs for layer in one.ignored})
     more = [
@@ -118,7 +121,7 @@ def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes:
         ),
         *([Note("W-PART-LAYER", instance.name, f"layers not read: {_listed(ignored)}")] if ignored else []),
     ]
-    return PartList(instance, holes, (*notes, *more))
+    return PartList(replace(instance, parts=parts), holes, (*notes, *more))
 
 
 def _listed(names: Sequence[str]) -> str:

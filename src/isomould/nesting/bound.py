@@ -23,14 +23,20 @@ class Bound:
     kind: BoundKind
 
 
-def bound_stock(outlines: Sequence[Floats], stock: StockSettings) -> Bound:
-    """Bound the number and the price of the stock sheets for any nesting of outlines that have places in it.
+def bound_stock(parts: Sequence[shapely.Polygon], stock: StockSettings) -> Bound:
+    """Bound the number and the price of the stock sheets for any nesting of parts that have places in it.
 
     Parts that stand apart by the gap do not overlap when each grows by half of it, and stay in the sheet's
-    usable rectangle grown likewise: parts that fit some sizes only need enough area of those. The least whole
-    number of sheets that have it, none used more often than it is there, is a small integer programme.
+    usable rectangle grown likewise: parts that fit some sizes only need enough area of those. A part grows into its
+    holes too, and what is left of them may hold other parts. The least whole number of sheets that have the
+    area, none used more often than it is there, is a small integer programme.
+
+    Parameters
+    ----------
+    parts
+        One polygon per piece, mm; holes that hold all that is cut out.
     """
-    needs = _needs(outlines, stock)
+    needs = _needs(parts, stock)
     if not needs:
         return Bound(0, 0.0, "area")
     kind: BoundKind = "area" if len(stock.sheets) == 1 else "lp"
@@ -39,11 +45,12 @@ def bound_stock(outlines: Sequence[Floats], stock: StockSettings) -> Bound:
     return Bound(math.ceil(count - 1e-6), price, kind)
 
 
-def _needs(outlines: Sequence[Floats], stock: StockSettings) -> dict[tuple[bool, ...], float]:
-    """Give the dilated area of the outlines that fit just the same sizes, by those."""
-    groups = dict[tuple[bool, ...], list[Floats]]()
-    for outline in outlines:
-        groups.setdefault(tuple(fits(outline, sheet, stock) for sheet in stock.sheets), []).append(outline)
+def _needs(parts: Sequence[shapely.Polygon], stock: StockSettings) -> dict[tuple[bool, ...], float]:
+    """Give the dilated area of the parts that fit just the same sizes, by those."""
+    groups = dict[tuple[bool, ...], list[shapely.Polygon]]()
+    for part in parts:
+        outline = shapely.get_coordinates(part.exterior)
+        groups.setdefault(tuple(fits(outline, sheet, stock) for sheet in stock.sheets), []).append(part)
     return {sizes: dilated_area(group, stock.gap) for sizes, group in groups.items()}
 
 
@@ -95,10 +102,9 @@ def sheets_for(need: float, area: float) -> int:
     return max(math.ceil(need / area - 1e-9), 0)
 
 
-def dilated_area(outlines: Sequence[Floats], gap: float) -> float:
-    """Give the area of outlines grown by half the gap; arcs are replaced by chords inside them."""
-    polygons = np.array([shapely.Polygon(outline) for outline in outlines])
-    return float(shapely.area(shapely.buffer(polygons, gap / 2, quad_segs=32)).sum())
+def dilated_area(parts: Sequence[shapely.Polygon], gap: float) -> float:
+    """Give the area of parts grown by half the gap, into their holes too; arcs are replaced by chords inside them."""
+    return float(shapely.area(shapely.buffer(np.array(parts), gap / 2, quad_segs=32)).sum())
 
 
 def grown_rectangle(width: float, height: float, gap: float) -> float:

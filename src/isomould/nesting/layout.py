@@ -1,7 +1,10 @@
 """Parts and members to nest, and the layouts that place them: the values of this room."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
+
+import shapely
 
 from isomould.arrays import Floats
 
@@ -34,6 +37,8 @@ class Part:
         Simple polygon, vertices multiples of 0.001.
     locations
         One per piece, or none at all.
+    holes : tuple of (n, 2) float, mm
+        Rings inside the outline that hold what is cut out of it: other parts may lie there.
     """
 
     id: Id
@@ -41,6 +46,12 @@ class Part:
     quantity: int = 1
     row: Id | None = None
     locations: tuple[str, ...] = ()
+    holes: tuple[Floats, ...] = ()
+
+    @cached_property
+    def polygon(self) -> shapely.Polygon:
+        """The part without its holes."""
+        return shapely.Polygon(self.outline, self.holes)
 
 
 @dataclass(frozen=True)

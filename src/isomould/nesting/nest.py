@@ -49,8 +49,8 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     classes = sort_classes(parts)
     found = find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else NOTHING
     filling = fill_stock(found.plans, classes, stock)
-    outlines = {part.id: part.outline for part in parts}
-    placed = [outlines[item[0][0]] for sheet in filling.filled for item in sheet.placed]
+    polygons = {part.id: part.polygon for part in parts}
+    placed = [polygons[item[0][0]] for sheet in filling.filled for item in sheet.placed]
     layout = make_layout([filling], bound_stock(placed, stock), ended=found.ended)
     return prove(parts, stock, replace(layout, pattern_bound=found.pattern_bound))
 
@@ -91,7 +91,7 @@ def _blanks(row: Sequence[Part], stock: StockSettings) -> Filling:
 
 def _blank_bound(row: Sequence[Part], stock: StockSettings) -> int:
     height = max(box(part.outline)[1] for part in row)
-    need = dilated_area([part.outline for part in row for _ in range(part.quantity)], stock.gap)
+    need = dilated_area([part.polygon for part in row for _ in range(part.quantity)], stock.gap)
     return sheets_for(need, grown_rectangle(stock.max_blank_length - 2 * stock.trim, height, stock.gap))
 
 

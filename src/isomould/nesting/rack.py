@@ -29,8 +29,9 @@ FREE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class PartClass:
-    """Parts with the same outline, whatever their marks; pieces in the order in which they are placed."""
+    """Parts with the same outline and holes, whatever their marks; pieces in the order in which they are placed."""
 
+    polygon: shapely.Polygon
     outline: Floats
     pieces: tuple[tuple[Id, str | None], ...]
 
@@ -48,17 +49,22 @@ class Case:
 
 
 def sort_classes(parts: Sequence[Part]) -> tuple[PartClass, ...]:
-    """Join the parts with equal outlines, in the order of their first."""
-    groups = dict[bytes, list[Part]]()
+    """Join the parts with equal outlines and holes, in the order of their first."""
+    groups = dict[tuple[bytes, ...], list[Part]]()
     for part in parts:
-        points = micrometres(part.outline)
-        groups.setdefault((points - points.min(axis=0)).tobytes(), []).append(part)
+        groups.setdefault(_form(part), []).append(part)
     return tuple(_part_class(group) for group in groups.values())
+
+
+def _form(part: Part) -> tuple[bytes, ...]:
+    """Give outline and holes from the corner of the box: equal for parts that are equal."""
+    corner = micrometres(part.outline).min(axis=0)
+    return tuple((micrometres(ring) - corner).tobytes() for ring in (part.outline, *part.holes))
 
 
 def _part_class(group: list[Part]) -> PartClass:
     pieces = tuple((part.id, location) for part in group for location in locations(part.locations, part.quantity))
-    return PartClass(group[0].outline, pieces)
+    return PartClass(group[0].polygon, group[0].outline, pieces)
 
 
 def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
@@ -78,8 +84,8 @@ def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
 
 def _goal(classes: Sequence[PartClass], stock: StockSettings) -> int:
     """Give the bound where fewer sheets are all that can be gained: with a single kind of sheet."""
-    outlines = [kind.outline for kind in classes for _ in kind.pieces]
-    return bound_stock(outlines, stock).sheets if len(stock.sheets) == 1 else 0
+    pieces = [kind.polygon for kind in classes for _ in kind.pieces]
+    return bound_stock(pieces, stock).sheets if len(stock.sheets) == 1 else 0
 
 
 def make_blank_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
