@@ -147,4 +147,5 @@ def _inner(edges: int, closed: bool) -> int:
 def _divided(own: Request, divide: RailDivide | GeneratrixDivide) -> Request:
     """Divide another way, without the limit on the deviation, which is measured here."""
     limits = own.limits.model_copy(update={"max_deviation": None})
-    return Request(own.field, divide, own.treatment, limits)
+    treatment = own.treatment.model_copy(update={"max_edge": None})  # the counts have its flat nodes already
+    return Request(own.field, divide, treatment, limits)

@@ -132,6 +132,7 @@ def division_request(field: str, project: Project) -> Request:
     table = project.rail if field == "rail" else project.generatrix
     limits = FormLimits(
         min_member=project.tolerances.min_member,
+        same_length=project.tolerances.length,
         max_deviation=project.tolerances.max_deviation,
         max_turning_deg=project.tolerances.max_turning_deg,
         max_panels=project.limits.max_panels,

@@ -307,10 +307,6 @@ REFUSALS = {
         changed(VAULT, generatrix={"curve": WAVE, "divide": {"nodes": 2}, "inflections": "fit"}),
         ["E-CURVE-FIT", "2 nodes for 3 arcs"],
     ),
-    "max_edge without a subdivision": (
-        changed(SMALL, generatrix={"divide": {"stations": 4}, "max_edge": 500}),
-        ["E-CURVE-MAX-EDGE", "500 mm"],
-    ),
 }
 
 

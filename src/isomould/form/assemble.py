@@ -11,7 +11,7 @@ from isomould.curves.plane import Plane
 from isomould.curves.space_curve import SpatialCurve
 from isomould.errors import Note, Refused
 from isomould.form.crossing import overhang_notes, refuse_crossing, refuse_crossing_parallels
-from isomould.form.division import Request, divide_curve, refuse_size
+from isomould.form.division import Request, divide_curve
 from isomould.form.edge_offset import Divided, divide_for_edge_offset
 from isomould.form.frame import refuse_twist, spatial_rail
 from isomould.form.lattice import half_width
@@ -19,8 +19,9 @@ from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import Caps, make_profile
 from isomould.form.rail import Ends, Rail, planar_rail
 from isomould.form.settings import SurfaceSettings
+from isomould.form.size_limit import refuse_size
 from isomould.form.spatial import SpatialPolygon, divide_in_space
-from isomould.form.surface import Surface, make_surface, refuse_flips
+from isomould.form.surface import Surface, make_surface, parallel_lengths, refuse_flips
 from isomould.form.survey import division_notes
 
 _COARSE_DEG, _ROUNDING_DEG = 30.0, 1e-9
@@ -91,7 +92,8 @@ def make_form(
     refuse_flips(surface, depth, rail_request.limits.min_member)
     _refuse_crossings(rail, generatrix, surface)
     hanging = () if generatrix_curve.closed else overhang_notes(surface.profile)  # what is closed hangs over by nature
-    notes = (*_turning_notes(rail), *hanging, *pole_notes, *_sagitta_notes(rail), *seam_notes)
+    long = _long_notes(surface, rail_request)
+    notes = (*_turning_notes(rail), *hanging, *pole_notes, *_sagitta_notes(rail), *seam_notes, *long)
     if settings.kind == "edge-offset" and isinstance(rail, CurvePolygon):
         notes += _flat_notes(rail, surface, depth)
     if isinstance(rail, CurvePolygon):
@@ -165,6 +167,18 @@ def _turning_notes(rail: CurvePolygon | SpatialPolygon) -> tuple[Note, ...]:
             "W-RAIL-COARSE", "rail.divide", f"the rail turns by {steepest:.2f}° at a node, more than {_COARSE_DEG:g}°"
         ),
     )
+
+
+def _long_notes(surface: Surface, request: Request) -> tuple[Note, ...]:
+    """Say which parallels are longer than the rail's `max_edge`: it holds on the rail, and they lie beside it."""
+    limit = request.treatment.max_edge
+    if limit is None:
+        return ()
+    offsets = np.column_stack([surface.profile.d, surface.profile.z])
+    lengths = parallel_lengths(surface.rail, offsets)
+    count = int(np.count_nonzero(lengths > limit + request.limits.same_length))
+    text = f"{count} edges of parallels outside the rail are longer than {limit:g} mm, up to {lengths.max():.1f} mm"
+    return (Note("W-CURVE-LONG", f"{request.field}.max_edge", text),) if count else ()
 
 
 def _flat_notes(rail: CurvePolygon, surface: Surface, depth: float) -> tuple[Note, ...]:

@@ -7,7 +7,7 @@ from isomould.curves.curve import PlanarCurve
 from isomould.curves.turning import Spans
 from isomould.errors import Refused
 from isomould.form.deviation import curve_distance
-from isomould.form.polygon import CurvePolygon, Edges, Role, foot, joints, unit
+from isomould.form.polygon import CurvePolygon, Edges, Role, foot, joints
 
 _SETTLED = 1e-9
 
@@ -25,6 +25,7 @@ def open_polygon(curve: PlanarCurve, turns: Spans, edges: Edges, min_end: float,
     polygon = _polygon(curve, np.vstack([first, inner, last]), edges, closed=False)
     keep = np.ones(len(edges.index), dtype=bool)
     keep[[0, -1]] = polygon.lengths[[0, -1]] >= min_end
+    keep |= [role is Role.END for role in edges.role]
     if not keep.all() and min_end > 0:
         return open_polygon(curve, turns, edges.take(np.flatnonzero(keep)), min_end, field)
     return _forward(curve, polygon, field)
@@ -53,23 +54,6 @@ def closed_polygon(curve: PlanarCurve, edges: Edges, full: float, field: str) ->
     turning = np.diff(direction)
     polygon = CurvePolygon(vertices, edges, turning, closed=True, deviation=curve_distance(curve, vertices))
     return _forward(curve, polygon, field)
-
-
-def split_straights(curve: PlanarCurve, polygon: CurvePolygon, max_edge: float | None) -> CurvePolygon:
-    """Divide the edges of straight parts equally by flat nodes, so that none is longer than `max_edge` (mm)."""
-    edges, lengths = polygon.edges, polygon.lengths
-    straight = np.array([role is Role.STRAIGHT for role in edges.role])
-    parts = np.where(straight, np.ceil(lengths / (max_edge or np.inf) - _SETTLED), 1).astype(np.int64).clip(1)
-    if parts.max() == 1:
-        return polygon
-    row = np.repeat(np.arange(len(parts)), parts)
-    share = np.arange(len(row)) - np.repeat(np.cumsum(parts) - parts, parts)
-    along = (share * lengths[row] / parts[row])[:, None] * unit(edges.direction[row])
-    vertices = polygon.vertices[row] + along
-    turning = np.where(share == 0, polygon.turning[row], 0.0)
-    if not polygon.closed:
-        vertices, turning = np.vstack([vertices, polygon.vertices[-1:]]), np.append(turning, np.nan)
-    return CurvePolygon(vertices, edges.take(row), turning, polygon.closed, curve_distance(curve, vertices))
 
 
 def _polygon(curve: PlanarCurve, vertices: Floats, edges: Edges, *, closed: bool) -> CurvePolygon:

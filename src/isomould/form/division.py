@@ -1,23 +1,25 @@
 """Dividing a curve: the lattice that a request stands for, and the polygon that comes of it (geometry §2)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from isomould.curves.curve import PlanarCurve
-from isomould.curves.turning import Arcs, Spans, arcs, spans, tangency
+from isomould.curves.turning import Arcs, Spans, arcs, spans
 from isomould.errors import Refused
 from isomould.form.arc_lattices import residual_lattices, several_lattices, shared_lattices
 from isomould.form.chords import drawn_polygon, station_polygon
-from isomould.form.closing import closed_polygon, open_polygon, split_straights
+from isomould.form.closing import closed_polygon, open_polygon
+from isomould.form.kept_ends import keep_ends, refuse_kept_ends
 from isomould.form.lattice import EvenLattice, Lattice
-from isomould.form.polygon import CurvePolygon, unit
+from isomould.form.long_edges import divide_long_edges
+from isomould.form.polygon import CurvePolygon
 from isomould.form.settings import FormLimits, GeneratrixDivide, RailDivide, Treatment
+from isomould.form.size_limit import refuse_size
 from isomould.form.tangents import refuse_noise, split_at_inflections, tangent_edges
+from isomould.form.walks import from_direction, from_inflection
 
 _WHOLE = 1e-9
-_LEVEL = 1e-6
-"""Tangents whose distances differ by less (mm) support a curve alike."""
 _OWN_TANGENTS = ("residual", "fit")
 """Ways in which the tangents at inflections are edges, so that no other direction can be prescribed."""
 
@@ -41,30 +43,24 @@ def divide_curve(curve: PlanarCurve, request: Request) -> CurvePolygon:
         If the curve has kinks, too little or noisy curvature, or the request does not fit it.
     """
     divide = request.divide
-    if divide.stations is not None or not _asks_for_angles(divide):
-        _refuse_max_edge(request)
+    if divide.keep_ends:
+        refuse_kept_ends(request.field, request.treatment.inflections, closed=curve.closed)
     if isinstance(divide.stations, int):
         refuse_size(divide.stations, request.limits)
     if divide.stations is not None:
-        return station_polygon(curve, divide.stations, request.field)
-    if not _asks_for_angles(divide):
-        return drawn_polygon(curve, request.field)
+        polygon = station_polygon(curve, divide.stations, request.field)
+    elif not _asks_for_angles(divide):
+        polygon = drawn_polygon(curve, request.field)
+    else:
+        polygon = _tangent_polygon(curve, request)
+    return divide_long_edges(curve, polygon, request.treatment.max_edge, request.limits)
+
+
+def _tangent_polygon(curve: PlanarCurve, request: Request) -> CurvePolygon:
+    """Divide a curve by angles (paper §4.1)."""
     _refuse_first(request)
     turns = smooth_spans(curve, request.field)
-    polygon = _divide_closed(curve, turns, request) if curve.closed else _divide_open(curve, turns, request)
-    return split_straights(curve, polygon, request.treatment.max_edge)
-
-
-def refuse_size(count: float, limits: FormLimits) -> None:
-    """Refuse more panels than the project allows, before anything large is made (failure mode J1)."""
-    if count > limits.max_panels:
-        raise Refused(
-            "E-SIZE",
-            "limits.max_panels",
-            f"{count:.0f} panels",
-            f"{limits.max_panels}",
-            "Divide the curves more coarsely, or raise the limit (about 2 kB of memory a panel).",
-        )
+    return _divide_closed(curve, turns, request) if curve.closed else _divide_open(curve, turns, request)
 
 
 def _asks_for_angles(divide: RailDivide | GeneratrixDivide) -> bool:
@@ -102,6 +98,8 @@ def _divide_open(curve: PlanarCurve, turns: Spans, request: Request) -> CurvePol
     lattices = _open_lattices(curve, turns, request)
     _refuse_incommensurable(turns, runs, lattices, request)
     edges = tangent_edges(curve, turns, lattices, request.field)
+    if request.divide.keep_ends and len(edges.index):
+        edges = keep_ends(curve, turns, edges, lattices, request.limits.min_member)
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     prescribed = request.divide.angle_deg is not None or request.divide.angles is not None
     shortest = request.limits.min_member if prescribed else 0.0
@@ -173,7 +171,7 @@ def _divide_closed(curve: PlanarCurve, turns: Spans, request: Request) -> CurveP
     _refuse_several(curve, request)
     walk = from_direction(curve, turns, np.radians(request.divide.first_deg or 0.0), np.sign(total), request.field)
     if _begins_at_inflections(request) and len(arcs(walk).sign) > 1:
-        walk = _from_inflection(walk)
+        walk = from_inflection(walk)
     lattice = EvenLattice(float(walk.theta0[0]), 2 * np.pi / _closed_count(arcs(turns), request))
     lattices = _lattices(curve, walk, lattice, request)
     _refuse_incommensurable(walk, arcs(walk), lattices, request)
@@ -218,73 +216,6 @@ def _whole_turns(angle_deg: float, field: str) -> int:
             f"The nearest ones are {near}.",
         )
     return round(count)
-
-
-def from_direction(curve: PlanarCurve, turns: Spans, first: float, sense: float, field: str) -> Spans:
-    """Cut a closed curve's spans open at its outermost tangent of direction `first` (rad).
-
-    The drawing's start point has no influence: of several tangents with this direction, the one that supports the
-    whole curve is taken, of several points where it does (beside a dent) the hindmost, and of a straight part its
-    middle.
-    """
-    lower = np.minimum(turns.theta0, turns.theta1)
-    upper = np.maximum(turns.theta0, turns.theta1)
-    direction = first + 2 * np.pi * np.ceil((lower - first - _WHOLE) / (2 * np.pi))
-    candidates = np.flatnonzero((direction <= upper + _WHOLE) & (turns.sign != -sense))
-    if len(candidates) == 0:
-        candidates = np.flatnonzero(direction <= upper + _WHOLE)
-    target = np.clip(direction[candidates], lower[candidates], upper[candidates])
-    middle = (turns.t0[candidates] + turns.t1[candidates]) / 2
-    curved = turns.sign[candidates] != 0
-    parameter = np.where(curved, tangency(curve, turns, candidates, target), middle)
-    contact = curve.point(turns.piece[candidates], parameter)
-    support = contact @ unit(np.array([first - sense * np.pi / 2]))[0]
-    outermost = np.flatnonzero(support >= support.max() - _LEVEL)
-    along = np.round(contact[outermost] @ unit(np.array([first]))[0], 6)
-    best = int(outermost[np.lexsort((along, curved[outermost]))[0]])
-    return _cut_open(turns, int(candidates[best]), float(parameter[best]), float(direction[candidates[best]]))
-
-
-def _cut_open(turns: Spans, span: int, parameter: float, direction: float) -> Spans:
-    """Start the spans of a closed curve inside one of them, where it has the given direction."""
-    order = np.concatenate([np.arange(span, len(turns.sign)), np.arange(span + 1)])
-    full = float((turns.theta1 - turns.theta0).sum())
-    shift = np.where(np.arange(len(order)) < len(turns.sign) - span, 0.0, full)
-    t0, t1 = turns.t0[order].copy(), turns.t1[order].copy()
-    theta0, theta1 = turns.theta0[order] + shift, turns.theta1[order] + shift
-    t0[0], theta0[0], t1[-1], theta1[-1] = parameter, direction, parameter, direction + full
-    return replace(
-        turns,
-        piece=turns.piece[order],
-        t0=t0,
-        t1=t1,
-        theta0=theta0,
-        theta1=theta1,
-        sign=turns.sign[order],
-        closed=False,
-    )
-
-
-def _from_inflection(walk: Spans) -> Spans:
-    """Start the spans of a closed curve, cut open anywhere, at an inflection or straight part instead."""
-    runs = arcs(walk)
-    first = int(runs.first[1 if runs.sign[0] else 2])
-    order = np.concatenate([np.arange(first, len(walk.sign)), np.arange(1, first)])
-    full = float((walk.theta1 - walk.theta0).sum())
-    t1, theta0, theta1 = walk.t1.copy(), walk.theta0.copy(), walk.theta1.copy()
-    theta0[:first] += full
-    theta1[:first] += full
-    t1[-1], theta1[-1] = t1[0], theta1[0]
-    return replace(
-        walk,
-        piece=walk.piece[order],
-        t0=walk.t0[order],
-        t1=t1[order],
-        theta0=theta0[order],
-        theta1=theta1[order],
-        sign=walk.sign[order],
-        closed=True,
-    )
 
 
 def _check_angle(step: float, runs: Arcs, request: Request) -> None:
@@ -346,17 +277,6 @@ def _refuse_several(curve: PlanarCurve, request: Request) -> None:
             "several angles on a closed curve" if curve.closed else f"several angles with inflections = '{way}'",
             "an open curve, and inflections = 'nearest' or 'refuse'",
             "Give one angle_deg or nodes, or change the above.",
-        )
-
-
-def _refuse_max_edge(request: Request) -> None:
-    if request.treatment.max_edge is not None:
-        raise Refused(
-            "E-CURVE-MAX-EDGE",
-            f"{request.field}.max_edge",
-            f"{request.treatment.max_edge:g} mm for a curve with its vertices as drawn or at stations",
-            "a curve divided by angles, whose straight parts are single edges",
-            "Leave it out, and draw or list the vertices that you want.",
         )
 
 

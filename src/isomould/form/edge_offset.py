@@ -11,15 +11,18 @@ from isomould.curves.turning import Spans, arcs
 from isomould.errors import Note, Refused
 from isomould.form.arc_lattices import shared_lattices
 from isomould.form.caps import cap_notes, find_caps
-from isomould.form.closing import open_polygon, split_straights
-from isomould.form.division import Request, from_direction, refuse_not_simple, refuse_straight, smooth_spans
+from isomould.form.closing import open_polygon
+from isomould.form.division import Request, refuse_not_simple, refuse_straight, smooth_spans
+from isomould.form.kept_ends import keep_end, refuse_kept_ends
 from isomould.form.lattice import KoebeLattice, half_width
+from isomould.form.long_edges import divide_long_edges
 from isomould.form.phase import choose_lattice
 from isomould.form.poles import Strips, chain, strips_between_poles
 from isomould.form.polygon import FLAT, CurvePolygon, joints
 from isomould.form.profile import Caps
 from isomould.form.settings import GeneratrixDivide, SlopePhase, SurfaceSettings
 from isomould.form.tangents import split_at_inflections, tangent_edges
+from isomould.form.walks import from_direction
 
 
 class Divided(NamedTuple):
@@ -53,12 +56,17 @@ def divide_for_edge_offset(
     """
     turning, limits = rail.angle or 0.0, request.limits
     _refuse_way(request)
+    if request.divide.keep_ends:
+        refuse_kept_ends(request.field, request.treatment.inflections, closed=curve.closed)
     turns = _upright(curve, request.field)
     refuse_straight(arcs(turns), request.field)
     strips = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
     if not strips.spans or (settings.pole == "refuse" and not strips.whole):
         _refuse_pole(curve, turns, strips.spans, turning, settings, request)
-    divided = [_divide_strip(curve, strip, turning, request) for strip in strips.spans]
+    drawn = _drawn_ends(strips, request)
+    divided = [
+        _divide_strip(curve, strip, turning, request, ends) for strip, ends in zip(strips.spans, drawn, strict=True)
+    ]
     polygon, parallels = chain([strip for strip, _ in divided]), np.concatenate([own for _, own in divided])
     caps = find_caps(strips, polygon, rail, limits.min_member) if settings.pole == "cap" else Caps()
     return Divided(polygon, parallels, caps, (*_pole_notes(strips, settings), *cap_notes(caps, rail)))
@@ -87,23 +95,23 @@ def edge_offset_residual(latitude: Floats, turning: float) -> Floats:
 def vertex_parallels(polygon: CurvePolygon, lattice: KoebeLattice) -> Floats:
     """Latitudes λ (n,) of the vertices: what the two edges of a vertex share (geometry §5).
 
-    Edge k lies between λ_k and λ_{k+1}. Edges k and k ± 1 share λ of the larger index. A flat node inside an
-    edge may take either latitude of that edge, and takes that of the vertex before it. An open end takes the one
-    that its edge does not share.
+    Edge k lies between λ_k and λ_{k+1}. Edges k and k ± 1 share λ of the larger index. A flat node inside an edge may
+    take either latitude of that edge, and takes the one nearer to the equator: so edges with slopes of both signs are
+    divided by the same nodes. An open end takes the latitude that its edge does not share.
     """
     index = polygon.edges.index
-    shared = np.concatenate([[np.nan], np.maximum(index[:-1], index[1:]), [np.nan]])
-    shared[0] = _other_end(index[0], _first_shared(index, shared))
-    for flat in np.flatnonzero(index[:-1] == index[1:]) + 1:
-        shared[flat] = shared[flat - 1]
-    shared[-1] = _other_end(index[-1], shared[-2])
-    return lattice.latitude(shared)
+    before, after = index[:-1], index[1:]
+    inner = np.where(before == after, _nearer_to_equator(before, lattice), np.maximum(before, after))
+    turns = inner[before != after]
+    first, last = (turns[0], turns[-1]) if len(turns) else (index[0], index[-1] + 1)
+    ends = _other_end(index[0], first), _other_end(index[-1], last)
+    return lattice.latitude(np.concatenate([[ends[0]], inner, [ends[1]]]))
 
 
-def _first_shared(index: Floats, shared: Floats) -> float:
-    """Latitude index at the first vertex that turns, where the first edge ends even if a flat node divides it."""
-    turns = np.flatnonzero(np.diff(index))
-    return float(shared[turns[0] + 1]) if len(turns) else float(index[0])
+def _nearer_to_equator(edge: Floats, lattice: KoebeLattice) -> Floats:
+    """Give the latitude index (n,) of the flatter end of edges (n,); of an edge astride the equator the lower one."""
+    lower, upper = (np.abs(lattice.start + lattice.step * (edge + k)) for k in (0, 1))
+    return np.where(upper < lower - FLAT, edge + 1, edge)
 
 
 def _other_end(edge: float, shared: float) -> float:
@@ -111,13 +119,26 @@ def _other_end(edge: float, shared: float) -> float:
     return edge if shared == edge + 1 else edge + 1
 
 
-def _divide_strip(curve: PlanarCurve, strip: Spans, turning: float, request: Request) -> tuple[CurvePolygon, Floats]:
-    """Divide a stretch of the generatrix without poles."""
+def _drawn_ends(strips: Strips, request: Request) -> list[tuple[bool, bool]]:
+    """Which ends of every strip are to stay: those of the drawn curve, not those that were cut near a pole."""
+    last = len(strips.spans) - 1
+    kept = request.divide.keep_ends
+    first_stays, last_stays = (kept and not cut for cut in strips.cut)
+    return [(first_stays and row == 0, last_stays and row == last) for row in range(last + 1)]
+
+
+def _divide_strip(
+    curve: PlanarCurve, strip: Spans, turning: float, request: Request, kept: tuple[bool, bool]
+) -> tuple[CurvePolygon, Floats]:
+    """Divide a stretch of the generatrix without poles; `kept` says which of its ends stay as drawn."""
     lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
     edges = tangent_edges(curve, strip, shared_lattices(strip, lattice), request.field)
+    for last, stays in enumerate(kept):
+        if stays and len(edges.index):
+            edges = keep_end(curve, strip, edges, lattice, request.limits.min_member, last=bool(last))
     edges = split_at_inflections(edges) if request.treatment.flat_nodes else edges
     polygon = open_polygon(curve, strip, edges, request.limits.min_member, request.field)
-    polygon = split_straights(curve, polygon, request.treatment.max_edge)
+    polygon = divide_long_edges(curve, polygon, request.treatment.max_edge, request.limits)
     return polygon, vertex_parallels(polygon, lattice)
 
 

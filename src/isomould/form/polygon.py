@@ -19,6 +19,8 @@ class Role(StrEnum):
     INFLECTION = "inflection"
     STRAIGHT = "straight"
     CHORD = "chord"
+    END = "end"
+    """Through an end of the curve that stays where it was drawn."""
     GAP = "gap"
     """No edge at all: between the strips on the two sides of a pole."""
 

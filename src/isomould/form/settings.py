@@ -62,6 +62,7 @@ class RailDivide(Settings):
     angles: AngleRanges | None = None
     stations: PositiveCount | tuple[Length, ...] | None = None
     first_deg: Number | None = None
+    keep_ends: Flag = False
 
     @model_validator(mode="after")
     def _one_way(self) -> "RailDivide":
@@ -79,6 +80,7 @@ class GeneratrixDivide(Settings):
     stations: PositiveCount | tuple[Length, ...] | None = None
     phase: Literal["centre", "node", "fit"] | SlopePhase | None = None
     first_deg: Number | None = None
+    keep_ends: Flag = False
 
     @model_validator(mode="after")
     def _one_way(self) -> "GeneratrixDivide":
@@ -155,6 +157,8 @@ class FormLimits(Settings):
     """Limits that the form stages hold: part of the `[tolerances]` and `[limits]` tables."""
 
     min_member: PositiveLength = 100.0
+    same_length: PositiveLength = 0.5
+    """Edges whose lengths differ by no more are equal, as parts are (`tolerances.length`)."""
     max_deviation: NonNegativeLength | None = None
     max_turning_deg: PositiveNumber = Field(default=60.0)
     max_panels: PositiveCount = 200_000

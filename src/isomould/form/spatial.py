@@ -13,6 +13,7 @@ from isomould.curves.space_curve import SpatialCurve
 from isomould.errors import Refused
 from isomould.form.chords import corners, stations
 from isomould.form.division import Request
+from isomould.form.long_edges import equal_parts, pieces
 
 _SHORT = 1e-6
 """Edges shorter than this (mm), or unit edges whose sum is shorter, have no bisecting plane."""
@@ -84,7 +85,21 @@ def divide_in_space(curve: SpatialCurve, request: Request) -> SpatialPolygon:
     )
     _refuse_short(polygon, field)
     _refuse_back(polygon, field)
-    return polygon
+    return _divide_long_chords(polygon, request)
+
+
+def _divide_long_chords(polygon: SpatialPolygon, request: Request) -> SpatialPolygon:
+    """Divide chords longer than `max_edge` equally by flat nodes: the frame passes them unchanged."""
+    limit = request.treatment.max_edge
+    if limit is None:
+        return polygon
+    parts = equal_parts(polygon.lengths, limit, request.limits)
+    row, share = pieces(parts)
+    vertices = polygon.vertices[row] + (share / parts[row])[:, None] * polygon.steps[row]
+    ends = polygon.vertices[len(polygon.piece) :]
+    divided = np.vstack([vertices, ends])
+    piece, parameter = polygon.piece[row], polygon.parameter[row]
+    return SpatialPolygon(divided, piece, parameter, polygon.closed, polygon.deviation)
 
 
 def _refuse_short(polygon: SpatialPolygon, field: str) -> None:

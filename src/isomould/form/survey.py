@@ -10,7 +10,8 @@ from isomould.curves.space_curve import SpatialCurve
 from isomould.curves.turning import arcs, spans
 from isomould.errors import Note
 from isomould.form.division import Request
-from isomould.form.polygon import FLAT, CurvePolygon, Role
+from isomould.form.kept_ends import kept_ends_notes
+from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.spatial import SpatialPolygon
 
 _SAME = 1e-9
@@ -108,8 +109,9 @@ def _arc(turning: float, step: float | None) -> ArcTurning:
 
 
 def division_notes(polygon: CurvePolygon, request: Request) -> tuple[Note, ...]:
-    """Say what a division could not give: the count asked for, one angle, edges as short as wished."""
-    return (*_count_notes(polygon, request), *_leftover_notes(polygon, request), *_long_notes(polygon, request))
+    """Say what a division could not give, and what it cost: the count asked for, one angle, ends as drawn."""
+    ends = kept_ends_notes(polygon, request.field)
+    return (*_count_notes(polygon, request), *_leftover_notes(polygon, request), *ends)
 
 
 def _count_notes(polygon: CurvePolygon, request: Request) -> tuple[Note, ...]:
@@ -127,14 +129,3 @@ def _leftover_notes(polygon: CurvePolygon, request: Request) -> tuple[Note, ...]
     named = [f"{np.degrees(angles[k]):.4f}° at {', '.join(str(j) for j in np.flatnonzero(of == k))}" for k in extra]
     text = f"leftover turning beside inflections makes classes of their own: nodes of {'; '.join(named)}"
     return (Note("W-CURVE-LEFTOVER", f"{request.field}.inflections", text),) if extra else ()
-
-
-def _long_notes(polygon: CurvePolygon, request: Request) -> tuple[Note, ...]:
-    limit = request.treatment.max_edge
-    long = [k for k in np.flatnonzero(polygon.lengths > (limit or np.inf) + _SAME) if _is_curved(polygon, int(k))]
-    text = f"{len(long)} edges on curved parts are longer than {limit:g} mm" if limit else ""
-    return (Note("W-CURVE-LONG", f"{request.field}.max_edge", text),) if long else ()
-
-
-def _is_curved(polygon: CurvePolygon, row: int) -> bool:
-    return polygon.edges.role[row] not in (Role.STRAIGHT, Role.GAP)

@@ -45,7 +45,7 @@ class RailTable(Settings):
         if self.up is None and self.outside is None:
             message = "outside is missing: say where the outside of the rail lies (or up, for a rail in space)"
             raise ValueError(message)
-        planar = sorted(self.model_fields_set & {"plane", "outside", "ends", "inflections", "flat_nodes", "max_edge"})
+        planar = sorted(self.model_fields_set & {"plane", "outside", "ends", "inflections", "flat_nodes"})
         if self.up is not None and planar:
             message = f"{' and '.join(planar)} cannot stand beside up: they are for planar rails"
             raise ValueError(message)
