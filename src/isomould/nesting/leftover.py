@@ -6,6 +6,7 @@ from dataclasses import replace
 from isomould.arrays import Ints
 from isomould.nesting.cover import Rack, area_of, pieces_of
 from isomould.nesting.sheets import Frame, Run, SheetPlan, Zone, fill, narrow, strip_height
+from isomould.nesting.strips import Block
 
 EMPTIEST = 3
 """Sheets that are squeezed; the one that leaves the largest offcut counts."""
@@ -33,8 +34,12 @@ def _offcut(plan: SheetPlan) -> float:
 
 
 def _length(frame: Frame, run: Run) -> float:
-    """Give what a run takes of its strip: the sizes of its items, and the wedge of a block's slanted end."""
-    return sum(sum(item.size for item in block) * frame.step + block[0].shape.wedge * (len(block) > 1) for block in run)
+    """Give what a run takes of its strip: the sizes of its items, and what the slanted ends of blocks stand out."""
+    return sum(sum(item.size for item in block) * frame.step + _ends(block) for block in run)
+
+
+def _ends(block: Block) -> float:
+    return (block[0].shape.overhang + block[-1].shape.overhang) / 2 if len(block) > 1 else 0.0
 
 
 def _squeezed(rack: Rack, plan: SheetPlan) -> SheetPlan:

@@ -159,12 +159,13 @@ def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
 
 
 def _fitting(kind: Kind, length: int, capacity: int, grid: Grid) -> tuple[Kind, Kind]:
-    """Give the items that fit with the set-up of their kind, and those of which just the box does."""
+    """Give the items that fit with the ends of a chain, and those of which just the box does."""
     items = [item for item in kind.items if item.shape.width <= length]
-    nested = tuple(item for item in items if item.size + kind.setup <= capacity)
-    boxes = [grid.box(item.part, item.shape) for item in items if item.size + kind.setup > capacity]
+    ends = kind.ends.odd if kind.ends else 0
+    nested = tuple(item for item in items if item.size + ends <= capacity)
+    boxes = [grid.box(item.part, item.shape) for item in items if item.size + ends > capacity]
     alone = tuple(replace(box, size=min(box.size, capacity)) for box in boxes)
-    return replace(kind, items=nested), Kind(kind.height, 0, alone)
+    return replace(kind, items=nested), Kind(kind.height, None, alone)
 
 
 def piece_counts(classes: Sequence[PartClass]) -> Ints:

@@ -49,9 +49,9 @@ class Shape:
         return int(self.points[:, 1].max())
 
     @property
-    def wedge(self) -> float:
-        """The more slanted leg, seen in plan: the most that an end of a strip loses twice."""
-        return max(abs(self.left), abs(self.right)) * self.height
+    def overhang(self) -> float:
+        """What both legs together stand out from their middles: the loss at the ends of a chain of one."""
+        return (abs(self.left) + abs(self.right)) * self.height / 2
 
 
 def stand(outline: Floats, rotation_deg: int) -> Shape:

@@ -1,10 +1,15 @@
 """Strips of parts head to tail: which parts go into one is a knapsack.
 
 n trapezoids of one height h and one pair of leg slopes, every other one turned by 180 degrees, need the
-length sum(mean widths) + (n - 1) gap / cos(slant) + h tan(slant), whatever their order (nesting, "What
-works"). Hence a size per item and one set-up cost per kind in the strip. Slopes that differ a little
-inside a kind cost h |difference| / 2 at a joint, which is charged to the two items against the kind's
-reference slopes. All bounds are rounded up, never down.
+length sum(mean widths) + gaps along the legs between them + what the two end legs stand out from their
+middles, whatever their order. Hence a size per item and a set-up cost per kind in the strip.
+
+Where parts make half turns, a chain of an even number ends with two equal legs, which may be the less
+slanted ones: it stands out by h tan(less). One of an odd number ends with one of each: h (tan + tan) / 2.
+So a kind has two set-ups, and the knapsack counts odd and even (`Ends`).
+
+Slopes that differ a little inside a kind cost h |difference| / 2 at a joint, which is charged to the two
+items against the kind's reference slopes. All bounds are rounded up, never down.
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,19 +31,35 @@ class Item:
     size: int
 
 
+PARITY = 3
+"""Grid steps by which the ends of odd and even chains differ at least, so that they are counted apart."""
+
 Block = tuple[Item, ...]
 """Items of one kind head to tail, or a single item in its box; blocks stand apart by the gap."""
 
 
+@dataclass(frozen=True)
+class Ends:
+    """What a chain needs beside the sizes of its items, in grid steps, by whether their number is even or odd."""
+
+    even: int
+    odd: int
+
+    @property
+    def differ(self) -> bool:
+        """Tell whether it pays to count odd and even."""
+        return self.odd - self.even >= PARITY
+
+
 @dataclass(frozen=True, eq=False)
 class Kind:
-    """Items that nest head to tail; `height` in micrometres, `setup` in grid steps.
+    """Items that nest head to tail; `height` in micrometres.
 
-    A kind without set-up cost holds items that stand in their boxes.
+    A kind without `ends` holds items that stand in their boxes.
     """
 
     height: int
-    setup: int
+    ends: Ends | None
     items: tuple[Item, ...]
 
 
@@ -92,30 +113,57 @@ def _difference(one: Shape, other: Shape) -> float:
 
 
 def _kind(alike: list[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> Kind:
-    height, wedge = alike[0][1].height, max(shape.wedge for _, shape in alike)
-    if wedge == 0 or sum(pieces[part] for part, _ in alike) == 1:
-        return _boxes(alike, grid)
     slopes = np.array([(shape.left, shape.right) for _, shape in alike])
+    if not slopes.any() or sum(pieces[part] for part, _ in alike) == 1:
+        return _boxes(alike, grid)
+    height = alike[0][1].height
     middle = np.median(slopes, axis=0) if grid.flips else np.full(2, np.median(slopes))
-    slant = grid.gap * float(np.hypot(1.0, np.abs(slopes).max()))
-    loss = np.abs(slopes - middle).sum(axis=1) * height / 2 + slant + 1
+    steepest = np.abs(slopes).max(axis=0)
+    # Of the joint at each of its legs an item is charged a half; without half turns both legs meet there.
+    joints = grid.gap * np.hypot(1.0, steepest if grid.flips else np.full(2, steepest.max()))
+    loss = np.abs(slopes - middle).sum(axis=1) * height / 2 + joints.mean() + 1
     sizes = [grid.up(shape.mean + float(more)) for (_, shape), more in zip(alike, loss, strict=True)]
     items = tuple(Item(part, shape, size) for (part, shape), size in zip(alike, sizes, strict=True))
-    return Kind(height, max(grid.up(wedge + grid.gap - slant), 1), items)
+    return Kind(height, _ends(height * steepest, joints, grid), items)
+
+
+def _ends(wedges: Floats, joints: Floats, grid: Grid) -> Ends:
+    """Give what ends need: half a wedge at either, one whole gap to the next block, less the joints charged there.
+
+    Parameters
+    ----------
+    wedges : (2,) float, micrometres
+        The left and the right leg, seen in plan.
+    joints : (2,) float, micrometres
+        What a gap takes along each of them.
+    """
+    outside = wedges - joints + grid.gap
+    odd = max(grid.up(float(outside.mean())), 0)
+    even = max(grid.up(float(outside.min())), 0)
+    return Ends(min(even, odd) if grid.flips else odd, odd)
 
 
 def _boxes(alike: list[tuple[int, Shape]], grid: Grid) -> Kind:
-    return Kind(alike[0][1].height, 0, tuple(grid.box(part, shape) for part, shape in alike))
+    return Kind(alike[0][1].height, None, tuple(grid.box(part, shape) for part, shape in alike))
 
 
 @dataclass(frozen=True, eq=False)
 class _Layer:
-    """What the programme decided for one kind: where opening it pays, and which items are then taken."""
+    """What the programme decided for one kind.
+
+    Attributes
+    ----------
+    taken
+        Of every item: whether it is taken at a length, in a chain of an even (row 0) and an odd (row 1) number with
+        it; a single row where numbers are not told apart.
+    closed
+        Lengths at which a chain pays that ends with the row's number.
+    """
 
     kind: Kind
-    pays: Bools | None
     items: list[Item]
     taken: list[Bools]
+    closed: list[Bools]
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +200,7 @@ def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int, *,
     tables: list[Floats] = []
     for kind in kinds:
         items = [item for item in kind.items for _ in range(_copies(item, counts, capacity))]
-        if items and kind.setup < capacity:
+        if items:
             layers.append(_layer(kind, items, best, values))
             worth.append(float(best[-1]))
             tables += [best.copy()] if all_lengths else []
@@ -167,39 +215,68 @@ def _copies(item: Item, counts: Ints, capacity: int) -> int:
 
 def _layer(kind: Kind, items: list[Item], best: Floats, values: Floats) -> _Layer:
     """Take up one kind into `best`, in place."""
-    if not kind.setup:
-        return _Layer(kind, None, items, [_take(best, item.size, values[item.part]) for item in items])
-    opened = best[: -kind.setup].copy()
+    opened = best[None] if kind.ends is None else _open(best, kind.ends)
     taken = [_take(opened, item.size, values[item.part]) for item in items]
-    pays = opened > best[kind.setup :]
-    np.maximum(best[kind.setup :], opened, out=best[kind.setup :])
-    return _Layer(kind, pays, items, taken)
+    closed = [_close(best, chains, setup) for chains, setup in zip(opened, _setups(kind), strict=True)]
+    return _Layer(kind, items, taken, closed)
+
+
+def _open(best: Floats, ends: Ends) -> Floats:
+    """Begin chains: with no item yet their number is even."""
+    return np.stack([best, np.full(len(best), -np.inf)]) if ends.differ else best[None].copy()
+
+
+def _setups(kind: Kind) -> tuple[int, ...]:
+    """Give what the ends of chains need, row by row."""
+    if kind.ends is None:
+        return (0,)
+    return (kind.ends.even, kind.ends.odd) if kind.ends.differ else (kind.ends.odd,)
 
 
 def _take(best: Floats, size: int, value: float) -> Bools:
-    if size >= len(best):
-        return np.zeros(0, dtype=np.bool_)
-    with_it = best[:-size] + value
-    taken = with_it > best[size:]
-    np.maximum(best[size:], with_it, out=best[size:])
+    """Take an item or not, in place; of two rows the one is the other with an item more."""
+    if size >= best.shape[1]:
+        return np.zeros((len(best), 0), dtype=np.bool_)
+    with_it = best[::-1, :-size] + value
+    taken = with_it > best[:, size:]
+    np.maximum(best[:, size:], with_it, out=best[:, size:])
     return taken
+
+
+def _close(best: Floats, chains: Floats, setup: int) -> Bools:
+    """End chains where that pays, in place."""
+    closed = chains[: max(len(best) - setup, 0)]
+    pays = closed > best[setup:]
+    np.maximum(best[setup:], closed, out=best[setup:])
+    return pays
 
 
 def trace(priced: Priced, index: int, capacity: int) -> list[Block]:
     """Give the blocks of the best strip of height class `index`, the tallest first."""
     blocks: list[Block] = []
     for layer in reversed(priced.layers[: index + 1]):
-        room = capacity - layer.kind.setup
-        if layer.pays is None or (room >= 0 and layer.pays[room]):
-            items, capacity = _trace_layer(layer, room)
-            blocks += [items] if layer.kind.setup else [(item,) for item in items]
+        found, capacity = _trace_layer(layer, capacity)
+        blocks += found
     return [block for block in blocks if block]
 
 
-def _trace_layer(layer: _Layer, room: int) -> tuple[Block, int]:
+def _trace_layer(layer: _Layer, room: int) -> tuple[list[Block], int]:
+    if layer.kind.ends is None:
+        items, room = _trace_items(layer, room, 0)
+        return [(item,) for item in items], room
+    # Odd chains were the last to be ended: where they pay, they are what is best.
+    for row, setup in reversed(list(enumerate(_setups(layer.kind)))):
+        if room >= setup and layer.closed[row][room - setup]:
+            items, room = _trace_items(layer, room - setup, row)
+            return [tuple(items)], room
+    return [], room
+
+
+def _trace_items(layer: _Layer, room: int, row: int) -> tuple[list[Item], int]:
     chosen: list[Item] = []
     for item, taken in zip(reversed(layer.items), reversed(layer.taken), strict=True):
-        if room >= item.size and taken[room - item.size]:
+        if room >= item.size and taken[row, room - item.size]:
             chosen.append(item)
             room -= item.size
-    return tuple(chosen), room
+            row = len(taken) - 1 - row
+    return chosen, room
