@@ -1,9 +1,10 @@
 """The base of every settings type: frozen, closed to unknown keys, finite numbers only; user text of one line."""
 
 import unicodedata
-from typing import Annotated
+from collections.abc import Iterator
+from typing import Annotated, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 _LONGEST = 120
 
@@ -12,6 +13,18 @@ class Settings(BaseModel):
     """A table of the project file. Defined beside the stage that reads it; composed by `isomould.project`."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    def conflicts(self) -> Iterator[str]:
+        """Say which values of the table do not go together, each as "found; limit" in a line of its own."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _without_conflicts(self) -> Self:
+        """Refuse all conflicts together: the reader of project files tells the lines apart."""
+        said = list(self.conflicts())
+        if said:
+            raise ValueError("\n".join(said))
+        return self
 
 
 def _one_line(text: str) -> str:

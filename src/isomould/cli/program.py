@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from isomould.cli.console import INTERRUPTED, catch_signals, warn
-from isomould.errors import IsomouldError
+from isomould.errors import IsomouldError, Refused
 
 _COMMANDS = {
     "new": "new_command",
@@ -62,6 +62,13 @@ def _terminate(*_: Any) -> None:
     raise KeyboardInterrupt
 
 
+def _message(error: IsomouldError) -> str:
+    """Word an error; refusals that were gathered are a line each."""
+    together = error.each if isinstance(error, Refused) else ()
+    lines = str(error).splitlines() if len(together) > 1 else [str(error)]
+    return "\n".join(f"isomould: {line}" for line in lines)
+
+
 def _run(arguments: Sequence[str] | None) -> int:
     try:
         result = cli.main(arguments, standalone_mode=False)
@@ -69,7 +76,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         error.show()
         return error.exit_code
     except IsomouldError as error:
-        warn(f"isomould: {error}")
+        warn(_message(error))
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):
         warn("isomould: interrupted; nothing was published")

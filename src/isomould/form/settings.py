@@ -1,5 +1,6 @@
 """The `[rail]`, `[generatrix]` and `[surface]` tables of the project file, curves apart."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
@@ -136,21 +137,12 @@ class SurfaceSettings(Settings):
     sill: Flag = False
     """Members along the edges that the planes cut."""
 
-    @model_validator(mode="after")
-    def _cap_needs_pole(self) -> "SurfaceSettings":
+    def conflicts(self) -> Iterator[str]:
+        """Say which options go with nothing that is there."""
         if self.pole == "cap" and self.kind != "edge-offset":
-            message = (
-                f"pole = 'cap' closes what edge offset meshes leave open; kind = '{self.kind}' leaves nothing open"
-            )
-            raise ValueError(message)
-        return self
-
-    @model_validator(mode="after")
-    def _sill_needs_plane(self) -> "SurfaceSettings":
+            yield f"pole = 'cap' closes what edge offset meshes leave open; kind = '{self.kind}' leaves nothing open"
         if self.sill and not self.trim:
-            message = "sill = true needs planes to trim by: trim = [{plane = {z = 0}, keep = 'above'}]"
-            raise ValueError(message)
-        return self
+            yield "sill = true needs planes to trim by: trim = [{plane = {z = 0}, keep = 'above'}]"
 
 
 class FormLimits(Settings):

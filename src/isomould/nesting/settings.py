@@ -1,8 +1,8 @@
 """The `[stock]` table: what lies in the rack, and how it may be cut."""
 
+from collections import Counter
+from collections.abc import Iterator
 from typing import Literal
-
-from pydantic import model_validator
 
 from isomould.settings import Name, Settings
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
@@ -65,50 +65,33 @@ class StockSettings(Settings):
         """Tell whether nothing is lost between parts: glass is scored and broken, not cut."""
         return self.gap == 0
 
-    @model_validator(mode="after")
-    def _gap_holds_the_kerf(self) -> "StockSettings":
+    def conflicts(self) -> Iterator[str]:
+        """Say which values of the stock do not go together."""
         if self.gap < self.kerf:
-            message = f"gap {self.gap:g} mm is too narrow; at least the kerf of {self.kerf:g} mm that it includes"
-            raise ValueError(message)
-        return self
-
-    @model_validator(mode="after")
-    def _room_inside_the_trim(self) -> "StockSettings":
-        for sheet in self.sheets:
-            if 2 * self.trim >= min(sheet.width, sheet.height):
-                message = f"trim {self.trim:g} mm leaves nothing of sheet {sheet.name!r}; less than half of its sides"
-                raise ValueError(message)
-        return self
-
-    @model_validator(mode="after")
-    def _room_between_the_bar_trims(self) -> "StockSettings":
-        for bar in self.bars:
-            if 2 * self.bar_trim >= bar.length:
-                message = (
-                    f"bar_trim {self.bar_trim:g} mm leaves nothing of a bar; less than half of its {bar.length:g} mm"
-                )
-                raise ValueError(message)
-        return self
-
-    @model_validator(mode="after")
-    def _sheets_have_their_own_names(self) -> "StockSettings":
+            yield f"gap {self.gap:g} mm is too narrow; at least the kerf of {self.kerf:g} mm that it includes"
+        yield from self._trims()
         names = [sheet.name for sheet in self.sheets]
         if len(set(names)) < len(names):
-            message = "two stock sheets have the same name; a name of its own for every sheet"
-            raise ValueError(message)
-        return self
+            yield "two stock sheets have the same name; a name of its own for every sheet"
+        yield from self._twin_bars()
 
-    @model_validator(mode="after")
-    def _bars_have_their_own_lengths(self) -> "StockSettings":
-        names = [(bar.section, bar.length) for bar in self.bars]
-        for section, length in names:
-            if names.count((section, length)) > 1:
-                message = (
-                    f"two stock bars of {section} are {length:g} mm long; one entry for every length and section "
-                    "(a remnant as long as a new bar may be a millimetre shorter)"
-                )
-                raise ValueError(message)
-        return self
+    def _trims(self) -> Iterator[str]:
+        """Name the stock of which the trim leaves nothing."""
+        for sheet in self.sheets:
+            if 2 * self.trim >= min(sheet.width, sheet.height):
+                yield f"trim {self.trim:g} mm leaves nothing of sheet {sheet.name!r}; less than half of its sides"
+        for bar in self.bars:
+            if 2 * self.bar_trim >= bar.length:
+                yield f"bar_trim {self.bar_trim:g} mm leaves nothing of a bar; less than half of its {bar.length:g} mm"
+
+    def _twin_bars(self) -> Iterator[str]:
+        """Name the bars of one section that are as long as another."""
+        known = Counter((bar.section, bar.length) for bar in self.bars)
+        for section, length in (bar for bar, count in known.items() if count > 1):
+            yield (
+                f"two stock bars of {section} are {length:g} mm long; one entry for every length and section "
+                "(a remnant as long as a new bar may be a millimetre shorter)"
+            )
 
 
 def allowed_rotations_deg(stock: StockSettings, sheet: SheetStock | None) -> tuple[int, ...]:

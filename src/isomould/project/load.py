@@ -4,7 +4,6 @@ import difflib
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from pathlib import Path
 from typing import Any, cast, get_args
 
@@ -12,10 +11,10 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from isomould.documents.title_block import Logo
-from isomould.errors import OutputFault, Refused
+from isomould.errors import Gathering, OutputFault, Refused, RefusedTogether
 from isomould.project.logo import read_logo
 from isomould.project.schema import Project, ShapeTable
-from isomould.project.wording import word
+from isomould.project.wording import Words, word
 from isomould.settings import Settings
 
 _LARGEST_FILE = 1_000_000
@@ -52,17 +51,37 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
     OutputFault
         If the file cannot be read.
     """
-    source = _read(path)
-    data = reduce(_override, overrides, _parse(source, path))
-    project = validate(data, path.name)
-    shapes = [(shape.slug, validate(_reshaped(data, shape), f"{path.name}, {shape.name}")) for shape in project.shapes]
-    folder = path.resolve().parent
-    return LoadedProject(project, folder, source, tuple(shapes), read_logo(folder, project.project.logo))
+    source, folder = _read(path), path.resolve().parent
+    with Gathering() as faults:
+        data = _overridden(_parse(source, path), overrides, faults)
+        project = faults.run(validate, data, path.name)
+        shapes = faults.run(lambda: _shapes(data, project.value, path.name))
+        logo = faults.run(lambda: read_logo(folder, project.value.project.logo))
+    return LoadedProject(project.value, folder, source, shapes.value, logo.value)
 
 
 def read_tables(path: Path, overrides: Sequence[str] = ()) -> Mapping[str, Any]:
     """Read the tables of a project file, with the overrides in place and nothing checked yet."""
-    return reduce(_override, overrides, _parse(_read(path), path))
+    with Gathering() as faults:
+        return _overridden(_parse(_read(path), path), overrides, faults)
+
+
+def _overridden(data: Mapping[str, Any], overrides: Sequence[str], faults: Gathering) -> Mapping[str, Any]:
+    """Set one value after another; one that cannot be set is left out and told."""
+    for change in overrides:
+        changed = faults.run(_override, data, change)
+        data = changed.result or data
+    return data
+
+
+def _shapes(data: Mapping[str, Any], project: Project, name: str) -> tuple[tuple[str, Project], ...]:
+    """Give the other shapes of a project by the names of their folders."""
+    with Gathering() as faults:
+        shapes = [
+            (shape.slug, faults.run(validate, _reshaped(data, shape), f"{name}, {shape.name}"))
+            for shape in project.shapes
+        ]
+    return tuple((slug, shape.value) for slug, shape in shapes)
 
 
 def _reshaped(data: Mapping[str, Any], shape: ShapeTable) -> dict[str, Any]:
@@ -78,10 +97,9 @@ def validate(data: Mapping[str, Any], name: str) -> Project:
     try:
         return Project.model_validate(data)
     except ValidationError as error:
-        findings = [_describe(detail, data) for detail in error.errors()]
-        field, found, limit, way_out = findings[0]
-        others = "".join(f"\n  also {f[0]}: {f[1]}. {f[3]}" for f in findings[1:])
-        raise Refused("E-PROJECT", f"{name}: {field}", found, limit, way_out + others) from None
+        found = [(each, words) for each in error.errors() for words in _describe(each, data)]
+        refusals = [Refused("E-PROJECT", f"{name}: {_field(each, data)}", *words) for each, words in found]
+    raise RefusedTogether(refusals) if len(refusals) > 1 else refusals[0]
 
 
 def _read(path: Path) -> bytes:
@@ -152,26 +170,26 @@ def with_value(data: Mapping[str, Any], key: str, value: object) -> dict[str, An
     return {**data, table: with_value(cast("Mapping[str, Any]", inner), rest, value)}
 
 
-def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, str, str, str]:
-    """Field, value found, limit and way out of one finding of pydantic's."""
+def _field(detail: ErrorDetails, data: Mapping[str, Any]) -> str:
+    """Name the field that one of pydantic's findings is about."""
+    path, _ = _locate(detail["loc"], data, lost=detail["type"] == "missing")
+    return ".".join(path) or "project file"
+
+
+def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> list[Words]:
+    """Say value found, limit and way out of one of pydantic's findings, which may be several in one."""
     path, siblings = _locate(detail["loc"], data, lost=detail["type"] == "missing")
-    field = ".".join(path) or "project file"
     if detail["type"] == "extra_forbidden":
         known = _known_keys(path[:-1])
         near = difflib.get_close_matches(path[-1], known, 1, 0.5)
         if path[-1] in known:
-            return field, "a key of another kind of this table", "the keys of its own", "See docs/project-file.md."
+            return [Words("a key of another kind of this table", "the keys of its own", "See docs/project-file.md.")]
         hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
-        return field, "unknown key", f"one of {', '.join(known)}", hint
+        return [Words("unknown key", f"one of {', '.join(known)}", hint)]
     if detail["type"] == "missing":
-        return (
-            field,
-            "missing",
-            "required",
-            f"Add it to {'.'.join(path[:-1]) or 'the file'} ({', '.join(siblings) or 'empty'} given).",
-        )
-    words = word(detail)
-    return field, words.found, words.limit, words.way_out
+        given = ", ".join(siblings) or "empty"
+        return [Words("missing", "required", f"Add it to {'.'.join(path[:-1]) or 'the file'} ({given} given).")]
+    return word(detail)
 
 
 def _locate(location: Sequence[str | int], data: Mapping[str, Any], lost: bool) -> tuple[list[str], list[str]]:

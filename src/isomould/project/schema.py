@@ -1,5 +1,6 @@
 """The project file: the settings of every stage, composed (deliverables, Project file)."""
 
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
@@ -134,57 +135,44 @@ class Project(Settings):
     limits: LimitTable = LimitTable()
     shapes: Annotated[tuple[ShapeTable, ...], AfterValidator(_distinct)] = ()
 
-    @model_validator(mode="after")
-    def _classes_fit_the_gaps(self) -> "Project":
+    def conflicts(self) -> Iterator[str]:
+        """Say which tables do not go together."""
+        yield from self._classes_and_gaps()
+        yield from self._bases_without_supports()
+        yield from self._coated_panels_turned()
+        yield from self.kind_and_division()
+
+    def _classes_and_gaps(self) -> Iterator[str]:
         if self.tolerances.length > self.panels.gap / 2:
-            message = (
+            yield (
                 f"tolerances.length = {self.tolerances.length:g} mm is too wide; at most half of panels.gap = "
                 f"{self.panels.gap:g} mm: parts of one class would close the gaps"
             )
-            raise ValueError(message)
-        return self
 
-    @model_validator(mode="after")
-    def _bases_stand_under_supports(self) -> "Project":
+    def _bases_without_supports(self) -> Iterator[str]:
         if self.nodes.base_plate is not None and not self.surface.trim:
-            message = "nodes.base_plate goes under the supports of a trimmed surface: it needs surface.trim"
-            raise ValueError(message)
-        return self
+            yield "nodes.base_plate goes under the supports of a trimmed surface: it needs surface.trim"
 
-    @model_validator(mode="after")
-    def _coated_panels_stay_face_up(self) -> "Project":
-        turned = [
-            field
-            for field, asked in (
-                ("panels.flippable", self.panels.flippable),
-                ("stock.turn_over", self.stock is not None and self.stock.turn_over),
-            )
-            if asked
-        ]
-        if self.panels.coating != "none" and turned:
-            message = f"panels.coating = {self.panels.coating!r} and {turned[0]}: a coated panel has only one way up"
-            raise ValueError(message)
-        return self
+    def _coated_panels_turned(self) -> Iterator[str]:
+        turned = {
+            "panels.flippable": self.panels.flippable,
+            "stock.turn_over": self.stock is not None and self.stock.turn_over,
+        }
+        coating = self.panels.coating
+        for field in (field for field, asked in turned.items() if asked and coating != "none"):
+            yield f"panels.coating = {coating!r} and {field}: a coated panel has only one way up"
 
-    @model_validator(mode="after")
-    def _kind_fits_division(self) -> "Project":
+    def kind_and_division(self) -> Iterator[str]:
+        """Say which divisions the kind of surface does not have."""
         kind, rail, generatrix = self.surface.kind, self.rail.divide, self.generatrix.divide
         by_angle = any(way is not None for way in (rail.nodes, rail.angle_deg, rail.angles))
         if (kind == "monge") != (self.rail.up is not None):
-            message = "surface.kind = 'monge' and rail.up = [x, y, z] go together: a rail in space"
-            raise ValueError(message)
+            yield "surface.kind = 'monge' and rail.up = [x, y, z] go together: a rail in space"
         if kind == "monge" and (by_angle or rail.first_deg is not None):
-            message = "a rail in space is divided by rail.divide = {stations}, or as drawn: its tangents do not meet"
-            raise ValueError(message)
+            yield "a rail in space is divided by rail.divide = {stations}, or as drawn: its tangents do not meet"
         if kind in {"isogonal", "edge-offset"} and not by_angle:
-            message = (
-                f"surface.kind = '{kind}' has one turning angle: it needs rail.divide = {{nodes}} or {{angle_deg}}"
-            )
-            raise ValueError(message)
+            yield f"surface.kind = '{kind}' has one turning angle: it needs rail.divide = {{nodes}} or {{angle_deg}}"
         if kind == "edge-offset" and rail.angles is not None:
-            message = "surface.kind = 'edge-offset' has one turning angle: rail.divide = {angles} gives several"
-            raise ValueError(message)
+            yield "surface.kind = 'edge-offset' has one turning angle: rail.divide = {angles} gives several"
         if (kind == "edge-offset") != (generatrix.phase is not None):
-            message = "generatrix.divide = {phase} and surface.kind = 'edge-offset' go together"
-            raise ValueError(message)
-        return self
+            yield "generatrix.divide = {phase} and surface.kind = 'edge-offset' go together"

@@ -30,12 +30,16 @@ class Words(NamedTuple):
     way_out: str
 
 
-def word(detail: ErrorDetails) -> Words:
-    """Word a finding about a value.
+def word(detail: ErrorDetails) -> list[Words]:
+    """Word a finding about a value, or about values that do not go together: those come one a line.
 
     >>> word({"type": "less_than_equal", "loc": (), "msg": "Input should be less than or equal to 9", "input": 12})
-    Words(found='12', limit='less than or equal to 9', way_out='Change the value.')
+    [Words(found='12', limit='less than or equal to 9', way_out='Change the value.')]
     """
+    return [_word({**detail, "msg": line}) for line in detail["msg"].split("\n")]
+
+
+def _word(detail: ErrorDetails) -> Words:
     found, semicolon, limit = detail["msg"].removeprefix("Value error, ").partition("; ")
     if semicolon:
         return Words(found, limit, _way_out(detail["input"]))
