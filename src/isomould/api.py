@@ -30,6 +30,7 @@ from isomould.nesting.stop import Stop
 from isomould.pipeline import Built, Run, build_folder, schedule_folder
 from isomould.project.load import LoadedProject, load_project, read_tables
 from isomould.project.schema import MAIN, Project
+from isomould.rehearsal import rehearse_file
 from isomould.repetition import is_priced, make_pricing, price_families
 from isomould.study import Study, make_study
 from isomould.templates import copy_template
@@ -76,7 +77,7 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
 
 
 def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
-    """Compute a design and its counts; no files are written.
+    """Compute a design and its counts, and hold it to all that `build` asks before it searches; no files are written.
 
     Parameters
     ----------
@@ -85,8 +86,7 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     """
-    loaded = load_project(Path(project), changes)
-    designs = make_designs(loaded)
+    loaded, designs = rehearse_file(Path(project), changes)
     design = designs[MAIN]
     curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
     divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))

@@ -8,7 +8,7 @@ import numpy as np
 from isomould.design import Design, division_request, kit_settings
 from isomould.documents.table import Table, make_table
 from isomould.errors import Refused
-from isomould.form.assemble import RailInPlane, make_form
+from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
 from isomould.form.mesh import Mesh, make_mesh
 from isomould.form.settings import GeneratrixDivide, Kind, RailDivide, SurfaceSettings
@@ -17,6 +17,7 @@ from isomould.measure.report import Measured, measure_mesh
 from isomould.measure.smooth import Smooth
 from isomould.measure.take_off import TakeOff, take_off
 from isomould.parts.arms import find_arms
+from isomould.project.schema import Project
 
 
 @dataclass(frozen=True)
@@ -47,11 +48,17 @@ def compare_families(design: Design) -> tuple[Compared, ...]:
     return tuple(_measured(family, make, smooth, design) for family, make in makers.items())
 
 
-def _planar(design: Design) -> RailInPlane:
-    """Hold a design to what all families can be made of: a planar rail, no gap at a pole, nothing trimmed."""
-    whole = design.form.surface.profile.whole and not design.project.surface.trim
-    if isinstance(design.rail, RailInPlane) and whole:
-        return design.rail
+def planar_rail_of(rail: RailInPlane | RailInSpace, form: Form, project: Project) -> RailInPlane:
+    """Hold a design to what all families can be made of: a planar rail, no gap at a pole, nothing trimmed.
+
+    Raises
+    ------
+    Refused
+        E-COMPARE, if it has none of all that.
+    """
+    whole = form.surface.profile.whole and not project.surface.trim
+    if isinstance(rail, RailInPlane) and whole:
+        return rail
     raise Refused(
         "E-COMPARE",
         "surface",
@@ -142,6 +149,10 @@ def _generatrix_request(design: Design, kind: Kind) -> Request:
 def _inner(edges: int, closed: bool) -> int:
     """Nodes that give so many edges: all of a closed curve, the inner ones of an open one."""
     return edges if closed else max(edges - 1, 1)
+
+
+def _planar(design: Design) -> RailInPlane:
+    return planar_rail_of(design.rail, design.form, design.project)
 
 
 def _divided(own: Request, divide: RailDivide | GeneratrixDivide) -> Request:

@@ -9,16 +9,19 @@ import numpy as np
 
 from isomould.arrays import Floats, Ints, round_um
 from isomould.documents.schedules import OnBar, Placed
-from isomould.errors import Note, Refused
+from isomould.errors import Gathering, Note, Refused
+from isomould.form.mesh import Mesh
 from isomould.nesting.assembly import yield_percent
-from isomould.nesting.bars import nest_bars
+from isomould.nesting.bars import nest_bars, refuse_long_members
 from isomould.nesting.layout import BarLayout, Layout, Member, Part, Unplaced
-from isomould.nesting.nest import nest_blanks, nest_sheets
+from isomould.nesting.nest import nest_blanks, nest_sheets, refuse_unnestable
+from isomould.nesting.scarcity import refuse_scarce_bars, refuse_scarce_sheets
 from isomould.nesting.search import Search
 from isomould.nesting.settings import StockSettings
 from isomould.parts.catalogue import PlateSection
 from isomould.parts.kit import Kit
-from isomould.parts.members import MemberShape
+from isomould.parts.members import MemberParts, MemberShape
+from isomould.parts.panels import PanelParts
 from isomould.workers import Spread
 
 _NO_WASTE, _MUCH_WASTE = 1e-6, 60.0
@@ -77,15 +80,60 @@ def nest_kit(kit: Kit, stock: StockSettings | None, task: Search, spread: Spread
         If a part fits no sheet or bar, or the stock does not suffice.
     """
     stock = stock or StockSettings()
+    parts, members = panel_parts(kit.panels, kit.mesh), member_parts(kit.members)
+    refuse_stock(kit, stock)
     work = [
-        _panel_work(kit, stock, task),
-        *([partial(nest_bars, _member_parts(kit), stock, task.effort)] if stock.bars else []),
+        _panel_work(parts, stock, task),
+        *([partial(nest_bars, members, stock, task.effort)] if stock.bars else []),
     ]
     sheets, *rest = spread(_run, work)
     bars = cast("BarLayout", rest[0]) if rest else None
     refuse_unplaced(sheets.unplaced, "stock.sheets")
     refuse_unplaced(bars.unplaced if bars else (), "stock.bars")
     return Cutting(stock, _with_chamfers(kit, cast("Layout", sheets)), bars)
+
+
+def refuse_stock(kit: Kit, stock: StockSettings) -> None:
+    """Refuse stock that cannot hold the parts, as far as this is known without a search.
+
+    Raises
+    ------
+    Refused
+        For sheets and bars together.
+    """
+    with Gathering() as faults:
+        faults.run(refuse_sheets, panel_parts(kit.panels, kit.mesh), stock)
+        faults.run(refuse_bars, member_parts(kit.members), stock)
+
+
+def refuse_sheets(parts: Sequence[Part], stock: StockSettings) -> None:
+    """Refuse stock that cannot hold the panels, as far as this is known without a search.
+
+    Raises
+    ------
+    Refused
+        If a panel fits no sheet or blank, cannot be scored free, or all of them need more area than there is.
+    """
+    refuse_unnestable(parts, _face_up(stock))
+    refuse_scarce_sheets(parts, _face_up(stock))
+
+
+def refuse_bars(members: Sequence[Member], stock: StockSettings) -> None:
+    """Refuse bars that cannot hold the members, as far as this is known without a search.
+
+    Raises
+    ------
+    Refused
+        If a member is longer than all bars of its section, or all of them than the bars together.
+    """
+    if stock.bars:
+        refuse_long_members(members, stock)
+        refuse_scarce_bars(members, stock)
+
+
+def _face_up(stock: StockSettings) -> StockSettings:
+    """Give stock on which panels lie face up: what is fixed to them has its side."""
+    return stock.model_copy(update={"turn_over": False})
 
 
 def _with_chamfers(kit: Kit, layout: Layout) -> Layout:
@@ -134,9 +182,9 @@ def _where(kit_locations: tuple[str, ...], of: Ints, count: int) -> list[tuple[s
     return [tuple(names) for names in found]
 
 
-def _panel_parts(kit: Kit) -> tuple[Part, ...]:
-    panels = kit.panels
-    rows = kit.mesh.face_ij[panels.classes.representative, 0].tolist()
+def panel_parts(panels: PanelParts, mesh: Mesh) -> tuple[Part, ...]:
+    """Give the panels as the nesting room sees them, one per class."""
+    rows = mesh.face_ij[panels.classes.representative, 0].tolist()
     where = _where(panels.locations, panels.classes.of, len(panels.marks))
     return tuple(
         Part(mark, outline, len(places), row, places)
@@ -144,8 +192,8 @@ def _panel_parts(kit: Kit) -> tuple[Part, ...]:
     )
 
 
-def _member_parts(kit: Kit) -> tuple[Member, ...]:
-    members = kit.members
+def member_parts(members: MemberParts) -> tuple[Member, ...]:
+    """Give the members as the nesting room sees them, one per class."""
     where = _where(members.locations, members.classes.of, len(members.marks))
     return tuple(
         Member(mark, shape.section.name, shape.cut_length, len(places), places, _flat(shape))
@@ -161,7 +209,6 @@ def _flat(shape: MemberShape) -> tuple[tuple[float, float], ...]:
     return tuple((float(x), float(y)) for x, y in points)
 
 
-def _panel_work(kit: Kit, stock: StockSettings, task: Search) -> Callable[[], Layout]:
-    """Nest panels face up: what is fixed to them has its side."""
-    parts, stock = _panel_parts(kit), stock.model_copy(update={"turn_over": False})
+def _panel_work(parts: tuple[Part, ...], stock: StockSettings, task: Search) -> Callable[[], Layout]:
+    stock = _face_up(stock)
     return partial(nest_sheets, parts, stock, task) if stock.sheets else partial(nest_blanks, parts, stock)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -9,8 +10,15 @@ from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import build_plane
 from isomould.curves.settings import build_curve
 from isomould.curves.spatial_settings import build_spatial_curve
-from isomould.errors import Note, Refused
-from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
+from isomould.errors import Attempt, Gathering, Note, Refused
+from isomould.form.assemble import (
+    Form,
+    RailInPlane,
+    RailInSpace,
+    divide_generatrix,
+    divide_rail,
+    make_form,
+)
 from isomould.form.clash import refuse_clashes
 from isomould.form.division import Request
 from isomould.form.fitting import fit_curve
@@ -20,9 +28,11 @@ from isomould.form.settings import FormLimits, Treatment
 from isomould.form.slivers import weigh_panels
 from isomould.form.trim import make_cut, trim_mesh
 from isomould.measure.offsets import DoubleLayer, make_double_layer
-from isomould.parts.kit import Kit, KitSettings, make_kit
+from isomould.parts.kit import Kit, KitSettings, TriedKit, try_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +47,11 @@ class Design:
     notes: tuple[Note, ...]
     layers: DoubleLayer | None = None
 
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh of which the parts are made, trimmed."""
+        return self.kit.mesh
+
 
 def make_design(project: Project, folder: Path) -> Design:
     """Compute a design; `folder` is where the project's file references start.
@@ -46,11 +61,8 @@ def make_design(project: Project, folder: Path) -> Design:
     Refused
         If the project asks for something that cannot be made.
     """
-    drawn = sketch(project, folder)
-    kit = make_kit(drawn.mesh, kit_settings(project))
-    layers = _double_layer(drawn.form, project)
-    notes = (*drawn.notes, *kit.notes, *(layers.notes if layers else ()))
-    return Design(project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
+    with Gathering() as faults:
+        return try_design(project, folder, faults).design
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +76,37 @@ class Sketch:
     notes: tuple[Note, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class TriedDesign:
+    """A design as far as it can be made."""
+
+    project: Project
+    sketch: Attempt[Sketch]
+    parts: Attempt[TriedKit]
+    layers: Attempt[DoubleLayer | None]
+
+    @property
+    def design(self) -> Design:
+        """The design, if all of it can be made.
+
+        Raises
+        ------
+        Refused
+            The first that ended a stage.
+        """
+        drawn, kit, layers = self.sketch.value, self.parts.value.kit, self.layers.value
+        notes = (*drawn.notes, *kit.notes, *(layers.notes if layers else ()))
+        return Design(self.project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
+
+
+def try_design(project: Project, folder: Path, faults: Gathering) -> TriedDesign:
+    """Compute a design as far as it can be made; `faults` gathers what ends the rest."""
+    drawn = try_sketch(project, folder, faults)
+    parts = faults.run(lambda: try_kit(drawn.value.mesh, kit_settings(project), faults))
+    layers = faults.run(lambda: _double_layer(drawn.value.form, project))
+    return TriedDesign(project, drawn, parts, layers)
+
+
 def sketch(project: Project, folder: Path) -> Sketch:
     """Compute curves, surface and mesh; `folder` is where the project's file references start.
 
@@ -72,15 +115,63 @@ def sketch(project: Project, folder: Path) -> Sketch:
     Refused
         If the surface cannot be made.
     """
+    with Gathering() as faults:
+        return try_sketch(project, folder, faults).value
+
+
+def try_sketch(project: Project, folder: Path, faults: Gathering) -> Attempt[Sketch]:
+    """Compute curves, surface and mesh as far as they can be made; `faults` gathers what ends the rest."""
+    rail, generatrix = _try_curves(project, folder, faults)
+    if rail.refused or generatrix.refused:
+        _try_divisions(project, rail, generatrix, faults)
+    requests, depth = requests_of(project), project.members.section.depth
+    form = faults.run(lambda: make_form(rail.value.curve, generatrix.value.curve, requests, project.surface, depth))
+    trimmed = faults.run(
+        lambda: trim_mesh(make_mesh(form.value.surface), project.surface, project.tolerances.min_member)
+    )
+    slivers = faults.run(lambda: weigh_panels(trimmed.value[0]))
+    faults.run(lambda: refuse_clashes(trimmed.value[0], depth))
+    return faults.run(lambda: _sketched(rail.value, generatrix.value, form.value, trimmed.value, slivers.value))
+
+
+class _Drawn(NamedTuple, Generic[T]):
+    """A curve in its place, and what should be known about it."""
+
+    curve: T
+    notes: tuple[Note, ...]
+
+
+_Rail = _Drawn[RailInPlane | RailInSpace]
+_Generatrix = _Drawn[PlanarCurve]
+
+
+def _sketched(
+    rail: _Rail,
+    generatrix: _Generatrix,
+    form: Form,
+    trimmed: tuple[Mesh, tuple[Note, ...]],
+    panel_notes: tuple[Note, ...],
+) -> Sketch:
+    mesh, trim_notes = trimmed
+    notes = (*rail.notes, *generatrix.notes, *form.notes, *trim_notes, *panel_notes)
+    return Sketch(rail.curve, generatrix.curve, form, mesh, notes)
+
+
+def try_curves(project: Project, folder: Path, faults: Gathering) -> None:
+    """Draw and divide both curves, each by itself, to see what ends that."""
+    _try_divisions(project, *_try_curves(project, folder, faults), faults)
+
+
+def _try_curves(project: Project, folder: Path, faults: Gathering) -> tuple[Attempt[_Rail], Attempt[_Generatrix]]:
     requests = requests_of(project)
-    rail, rail_notes = _rail(project.rail, requests[0], folder)
-    generatrix, generatrix_notes = _generatrix(project.generatrix, requests[1], folder)
-    form = make_form(rail, generatrix, requests, project.surface, project.members.section.depth)
-    mesh, trim_notes = trim_mesh(make_mesh(form.surface), project.surface, project.tolerances.min_member)
-    panel_notes = weigh_panels(mesh)
-    refuse_clashes(mesh, project.members.section.depth)
-    notes = (*rail_notes, *generatrix_notes, *form.notes, *trim_notes, *panel_notes)
-    return Sketch(rail, generatrix, form, mesh, notes)
+    rail = faults.run(_rail, project.rail, requests[0], folder)
+    return rail, faults.run(_generatrix, project.generatrix, requests[1], folder)
+
+
+def _try_divisions(project: Project, rail: Attempt[_Rail], generatrix: Attempt[_Generatrix], faults: Gathering) -> None:
+    requests = requests_of(project)
+    divided = faults.run(lambda: divide_rail(rail.value.curve, requests[0], project.surface))
+    faults.run(lambda: divide_generatrix(generatrix.value.curve, divided, requests[1], project.surface))
 
 
 def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
@@ -110,21 +201,22 @@ def requests_of(project: Project) -> tuple[Request, Request]:
     return division_request("rail", project), division_request("generatrix", project)
 
 
-def _rail(table: RailTable, request: Request, folder: Path) -> tuple[RailInPlane | RailInSpace, tuple[Note, ...]]:
+def _rail(table: RailTable, request: Request, folder: Path) -> _Rail:
     if table.up is not None:
         spatial, notes = build_spatial_curve(table.curve, folder, "rail.curve")
-        return RailInSpace(spatial, np.array(table.up)), notes
+        return _Drawn(RailInSpace(spatial, np.array(table.up)), notes)
     plane = build_plane(table.plane, "rail.plane")
     fitted, fit_notes = fit_curve(table.curve, request)
     curve, notes = build_curve(fitted, folder, plane, "rail.curve")
     drawn = RailInPlane(orient_rail(curve, table.outside or (0.0, 0.0)), plane, table.ends)
-    return drawn, (*notes, *fit_notes)
+    return _Drawn(drawn, (*notes, *fit_notes))
 
 
-def _generatrix(table: GeneratrixTable, request: Request, folder: Path) -> tuple[PlanarCurve, tuple[Note, ...]]:
+def _generatrix(table: GeneratrixTable, request: Request, folder: Path) -> _Generatrix:
     fitted, fit_notes = fit_curve(table.curve, request)
     curve, notes = build_curve(fitted, folder, None, "generatrix.curve")
-    return place_generatrix(curve, table.origin, table.axes, table.outside), (*notes, *fit_notes)
+    placed = place_generatrix(curve, table.origin, table.axes, table.outside)
+    return _Drawn(placed, (*notes, *fit_notes))
 
 
 def division_request(field: str, project: Project) -> Request:

@@ -9,7 +9,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.design import Design, kit_settings, make_design
 from isomould.documents.table import Table, make_table
-from isomould.errors import Note, Refused
+from isomould.errors import Attempt, Gathering, Note, Refused
 from isomould.form.mesh import NodeKind
 from isomould.form.survey import node_angles
 from isomould.parts.details import share_sizes
@@ -32,13 +32,31 @@ def make_designs(loaded: LoadedProject) -> dict[str, Design]:
     Refused
         If a shape cannot be made, or its angles or slopes are not those of the first one.
     """
-    designs = {MAIN: make_design(loaded.project, loaded.folder)}
-    designs |= {name: _make_shape(name, project, loaded.folder) for name, project in loaded.shapes}
+    with Gathering() as faults:
+        main = faults.run(make_design, loaded.project, loaded.folder)
+        shapes = try_shapes(loaded, faults)
+        return one_kit({MAIN: main.value, **{name: shape.value for name, shape in shapes.items()}})
+
+
+def try_shapes(loaded: LoadedProject, faults: Gathering) -> dict[str, Attempt[Design]]:
+    """Compute the other shapes of a project, each by itself; `faults` gathers what ends them, with their names."""
+    return {name: faults.run(_make_shape, name, project, loaded.folder) for name, project in loaded.shapes}
+
+
+def one_kit(designs: Designs) -> dict[str, Design]:
+    """Give shapes node classes and marks in common; a single one keeps its own.
+
+    Raises
+    ------
+    Refused
+        If the angles or slopes of a shape are not those of the first one.
+    """
     if len(designs) == 1:
-        return designs
-    for name in designs:
-        _refuse_other_angles(designs, name)
-        _refuse_other_slopes(designs, name)
+        return dict(designs)
+    with Gathering() as faults:
+        for name in designs:
+            faults.run(_refuse_other_angles, designs, name)
+            faults.run(_refuse_other_slopes, designs, name)
     return _with_one_kit(designs)
 
 
@@ -46,8 +64,7 @@ def _make_shape(name: str, project: Project, folder: Path) -> Design:
     try:
         return make_design(project, folder)
     except Refused as refused:
-        field = f"shapes ({name}): {refused.field}"
-        raise Refused(refused.code, field, refused.found, refused.limit, refused.way_out) from None
+        raise refused.within(f"shapes ({name})") from None
 
 
 def _refuse_other_angles(designs: Designs, name: str) -> None:

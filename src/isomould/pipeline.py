@@ -16,20 +16,20 @@ from isomould.design import Design, kit_settings
 from isomould.documents.table import Table
 from isomould.documents.title_block import Logo
 from isomould.errors import CertificateFailed, Refused
-from isomould.family import kit_table, make_designs
+from isomould.family import kit_table
 from isomould.nesting.search import Effort, Search
 from isomould.parts.building import make_shapes
 from isomould.parts.clash import refuse_clashes
 from isomould.parts.solid import make_solids
 from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN
+from isomould.rehearsal import rehearse
 from isomould.revision import keep_design_marks, read_former
 from isomould.verify import Certificate, verify_folder, verify_page
 from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
 from isomould.writers.manifest import MANIFEST, Scope, listed_files, write_manifest
-from isomould.writers.parquet import require_parquet
 
 Report = Callable[[str], None]
 """Told the name of every stage as it begins."""
@@ -125,10 +125,8 @@ def _design(loaded: LoadedProject, run: Run) -> tuple[dict[str, Design], Table |
         found, limit = "a project of several shapes", "a project of one shape"
         way_out = "Build without --previous: the marks of the kit belong to all shapes."
         raise Refused("E-SHAPE-PREVIOUS", "--previous", found, limit, way_out)
-    if loaded.project.deliver.parquet:
-        require_parquet()
     run.report("curves, surface, parts")
-    designs = make_designs(loaded)
+    designs = rehearse(loaded)
     return designs, kit_table(designs) if loaded.shapes else None
 
 

@@ -89,12 +89,6 @@ def test_layer_names_of_the_shop(drawing, tmp_path):
     assert not space.query('*[layer=="CUT"]')
 
 
-@pytest.mark.parametrize("names", [{"CUT": "engrave"}, {"CUT": "A\nB"}, {"CUT": "A|B"}, {"CUT": ""}])
-def test_bad_layer_names_are_refused(drawing, names, tmp_path):
-    with pytest.raises(Refused, match="E-OUT-05"):
-        write_dxf(tmp_path / "P07.dxf", drawing, names)
-
-
 def test_nan_is_refused_before_writing(tmp_path):
     broken = CutDrawing((Polyline("CUT", OUTLINE * [1, np.nan], True),))
     with pytest.raises(Refused, match="E-OUT-02"):

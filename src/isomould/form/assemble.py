@@ -9,7 +9,7 @@ from isomould.arrays import Floats
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import Plane
 from isomould.curves.space_curve import SpatialCurve
-from isomould.errors import Note, Refused
+from isomould.errors import Attempt, Gathering, Note, Refused
 from isomould.form.crossing import overhang_notes, refuse_crossing, refuse_crossing_parallels
 from isomould.form.division import Request, divide_curve
 from isomould.form.edge_offset import Divided, divide_for_edge_offset
@@ -81,12 +81,14 @@ def make_form(
         If the design asks for what the surface cannot have.
     """
     rail_request, generatrix_request = requests
-    rail, frame = _make_rail(drawn, rail_request, settings)
-    generatrix, parallels, caps, pole_notes = _divide_generatrix(generatrix_curve, rail, generatrix_request, settings)
+    with Gathering() as faults:
+        rail_divided = faults.run(divide_rail, drawn, rail_request, settings)
+        divided = faults.run(divide_generatrix, generatrix_curve, rail_divided, generatrix_request, settings)
+        for polygon, request in ((rail_divided, rail_request), (divided, generatrix_request)):
+            faults.run(_refuse_deviation, polygon, request)
+    (rail, frame), (generatrix, parallels, caps, pole_notes) = rail_divided.value, divided.value
     rows = int(np.count_nonzero(~generatrix.gap)) + len(caps.rows)
     refuse_size(len(rail.lengths) * rows + len(caps.lids), rail_request.limits)
-    for polygon, request in ((rail, rail_request), (generatrix, generatrix_request)):
-        _refuse_deviation(polygon, request)
     surface = make_surface(frame, make_profile(generatrix, parallels, caps))
     seam_notes = refuse_twist(frame, surface.profile)
     refuse_flips(surface, depth, rail_request.limits.min_member)
@@ -101,9 +103,18 @@ def make_form(
     return Form(surface, rail, generatrix, (*notes, *division_notes(generatrix, generatrix_request)))
 
 
-def _make_rail(
-    drawn: RailInPlane | RailInSpace, request: Request, settings: SurfaceSettings
-) -> tuple[CurvePolygon | SpatialPolygon, Rail]:
+DividedRail = tuple[CurvePolygon | SpatialPolygon, Rail]
+"""The rail's polygon, and the frame along it."""
+
+
+def divide_rail(drawn: RailInPlane | RailInSpace, request: Request, settings: SurfaceSettings) -> DividedRail:
+    """Divide the rail and carry its frame.
+
+    Raises
+    ------
+    Refused
+        If the rail cannot be divided so.
+    """
     if isinstance(drawn, RailInSpace):
         polygon = divide_in_space(drawn.curve, request)
         return polygon, spatial_rail(polygon, drawn.up)
@@ -113,12 +124,22 @@ def _make_rail(
     return polygon, planar_rail(polygon, drawn.plane, ends)
 
 
-def _divide_generatrix(
-    curve: PlanarCurve, rail: CurvePolygon | SpatialPolygon, request: Request, settings: SurfaceSettings
+def divide_generatrix(
+    curve: PlanarCurve, rail: Attempt[DividedRail], request: Request, settings: SurfaceSettings
 ) -> Divided:
-    if settings.kind != "edge-offset" or isinstance(rail, SpatialPolygon):
+    """Divide the generatrix; only the slopes of edge offset meshes need the rail, whose angle decides them.
+
+    Raises
+    ------
+    Refused
+        If the generatrix cannot be divided so.
+    """
+    if settings.kind != "edge-offset":
         return Divided(divide_curve(curve, request), None, Caps(), ())
-    return divide_for_edge_offset(curve, rail, settings, request)
+    polygon, _ = rail.value
+    if isinstance(polygon, SpatialPolygon):
+        return Divided(divide_curve(curve, request), None, Caps(), ())
+    return divide_for_edge_offset(curve, polygon, settings, request)
 
 
 def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
@@ -133,8 +154,8 @@ def _hold_to_one_angle(rail: CurvePolygon, settings: SurfaceSettings) -> None:
     )
 
 
-def _refuse_deviation(polygon: CurvePolygon | SpatialPolygon, request: Request) -> None:
-    limit = request.limits.max_deviation
+def _refuse_deviation(divided: Attempt[DividedRail] | Attempt[Divided], request: Request) -> None:
+    polygon, limit = divided.value[0], request.limits.max_deviation
     if limit is not None and polygon.deviation > limit:
         raise Refused(
             "E-DEVIATION",

@@ -3,10 +3,10 @@
 `bar_task` says what the search sees of them.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from isomould.errors import Refused
+from isomould.errors import Gathering, Refused
 from isomould.nesting.bar_bound import BarBound
 from isomould.nesting.bar_checker import check_bars
 from isomould.nesting.bar_ends import lay
@@ -45,6 +45,7 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = 
     Refused
         If a member is longer than every bar of its section.
     """
+    refuse_long_members(members, stock)
     sections = list(dict.fromkeys(member.section for member in members))
     nested = [_nest_section(section, members, stock, effort) for section in sections]
     plans = [plan for one in nested for plan in one.plans]
@@ -71,7 +72,6 @@ def _price_bound(nested: _Nested) -> float:
 def _nest_section(section: str, members: Sequence[Member], stock: StockSettings, effort: Effort) -> _Nested:
     kinds = kinds_of(section, stock)
     pieces = [piece for member in members if member.section == section for piece in pieces_of(member, stock)]
-    _refuse_long(pieces, kinds, section, stock)
     task = make_task(pieces, kinds, stock)
     slanted = any(any(piece.blank.runs) for piece in pieces)
     patterns, bound = find_bars(task.rack, task.need, task.proof, task.fits if slanted else None, effort)
@@ -79,14 +79,32 @@ def _nest_section(section: str, members: Sequence[Member], stock: StockSettings,
     return _Nested(plans, [piece for queue in task.queues for piece in queue], bound, task.unit)
 
 
-def _refuse_long(pieces: Iterable[Piece], kinds: Sequence[Kind], section: str, stock: StockSettings) -> None:
-    longest = max((kind.room for kind in kinds), default=-1)
-    for piece in pieces:
-        if piece.blank.length > longest:
-            found = f"needs a bar of {piece.length + 2 * stock.bar_trim:.12g} mm with the trim"
-            bars = " or ".join(f"{kind.bar.length:g} mm" for kind in kinds) or "none"
-            way_out = "Add a longer bar of this section or divide the member."
-            raise Refused("E-NEST-20", f"member {piece.id}", found, f"stock bars of {section}: {bars}", way_out)
+def refuse_long_members(members: Sequence[Member], stock: StockSettings) -> None:
+    """Refuse members that are longer than every stock bar of their section: one of each section is named.
+
+    Raises
+    ------
+    Refused
+        E-NEST-20, with the length that is needed and the bars that there are.
+    """
+    longest: dict[str, Piece] = {}
+    for member in members:
+        piece = next(pieces_of(member, stock))
+        known = longest.get(member.section)
+        if known is None or piece.blank.length > known.blank.length:
+            longest[member.section] = piece
+    with Gathering() as faults:
+        for section, piece in longest.items():
+            faults.run(_refuse_long, piece, kinds_of(section, stock), section, stock)
+
+
+def _refuse_long(piece: Piece, kinds: Sequence[Kind], section: str, stock: StockSettings) -> None:
+    room = max((kind.room for kind in kinds), default=-1)
+    if piece.blank.length > room:
+        found = f"needs a bar of {piece.length + 2 * stock.bar_trim:.12g} mm with the trim"
+        bars = " or ".join(f"{kind.bar.length:g} mm" for kind in kinds) or "none"
+        way_out = "Add a longer bar of this section or divide the member."
+        raise Refused("E-NEST-20", f"member {piece.id}", found, f"stock bars of {section}: {bars}", way_out)
 
 
 def _bar(name: str, plan: _Plan, stock: StockSettings) -> Bar:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from isomould.errors import Refused
+from isomould.errors import Gathering, Refused
 from isomould.nesting.assembly import Filling, fill_blanks, fill_stock, make_layout
 from isomould.nesting.bound import Bound, bound_stock, dilated_area, grown_rectangle, sheets_for
 from isomould.nesting.checker import check_layout
@@ -44,8 +44,7 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     Refused
         If a part fits no sheet, or cannot be scored free where the gap is 0.
     """
-    refuse_oversize(parts, stock)
-    refuse_unscorable(parts, stock)
+    refuse_unnestable(parts, stock)
     classes = sort_classes(parts)
     found = find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else NOTHING
     filling = fill_stock(found.plans, classes, stock)
@@ -66,12 +65,24 @@ def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:
         If a part is longer than the longest blank.
     """
     stock = stock.model_copy(update={"sheets": ()})
-    _refuse_long(parts, stock)
-    refuse_unscorable(parts, stock)
+    refuse_unnestable(parts, stock)
     rows = _rows(parts)
     fillings = [_blanks(row, stock) for row in rows]
     bound = sum(_blank_bound(row, stock) for row in rows)
     return prove(parts, stock, make_layout(fillings, Bound(bound, 0.0, "area"), ended=True))
+
+
+def refuse_unnestable(parts: Sequence[Part], stock: StockSettings) -> None:
+    """Refuse parts that no nesting on these sheets places, or without sheets in blanks to order.
+
+    Raises
+    ------
+    Refused
+        If a part is larger than every sheet or blank, or cannot be scored free where the gap is 0.
+    """
+    with Gathering() as faults:
+        faults.run(refuse_oversize if stock.sheets else _refuse_long, parts, stock)
+        faults.run(refuse_unscorable, parts, stock)
 
 
 def _rows(parts: Sequence[Part]) -> list[list[Part]]:

@@ -2,7 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator
 
 from isomould.settings import Name, Settings
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
@@ -19,6 +21,17 @@ StockName = Name
 """Quoted in formulas of the workbook, which hold 255 characters."""
 
 
+def _at_least_one(value: int) -> int:
+    if value < 1:
+        message = f"{value} of them; at least 1, or no quantity where there are as many as are needed"
+        raise ValueError(message)
+    return value
+
+
+Quantity = Annotated[Count, AfterValidator(_at_least_one)]
+"""How many there are."""
+
+
 class SheetStock(Settings):
     """A stock sheet. `quantity` None is unlimited; a sheet with a grain takes no quarter turns."""
 
@@ -26,7 +39,7 @@ class SheetStock(Settings):
     width: PositiveLength
     height: PositiveLength
     price: NonNegativeNumber = 0.0
-    quantity: Count | None = None
+    quantity: Quantity | None = None
     grain: Flag = False
 
 
@@ -36,7 +49,7 @@ class BarStock(Settings):
     section: StockName
     length: PositiveLength
     price: NonNegativeNumber = 0.0
-    quantity: Count | None = None
+    quantity: Quantity | None = None
 
 
 class StockSettings(Settings):

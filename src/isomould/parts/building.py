@@ -36,7 +36,7 @@ class Standing:
     poses: Floats
 
 
-def make_shapes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...]) -> dict[str, Shape]:
+def make_shapes(kit: Kit, settings: KitSettings, solids: Sequence[Solid | Shape]) -> dict[str, Shape]:
     """Give one shape per mark, in the frame of its class: nodes, members, panels, bases."""
     thickness = settings.panels.thickness
     shapes = {mark: Shape(s.vertices, s.triangles) for mark, s in zip(kit.nodes.marks, solids, strict=True)}

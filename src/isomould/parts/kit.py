@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from isomould.arrays import Floats
-from isomould.errors import Note
+from isomould.errors import Attempt, Gathering, Note
 from isomould.form.mesh import Mesh
 from isomould.form.trim import Cut
 from isomould.parts.arms import Arms, find_arms
@@ -14,7 +14,7 @@ from isomould.parts.details import size_nodes
 from isomould.parts.details.joint import Joint
 from isomould.parts.members import MemberParts, make_members
 from isomould.parts.nodes import NodeParts, classify_nodes
-from isomould.parts.panels import PanelParts, make_panels
+from isomould.parts.panels import PanelParts, make_panels, refuse_bearing
 from isomould.parts.quality import beam_mismatch, node_torsion, refuse_torsion
 from isomould.parts.settings import CongruenceSettings, MemberSettings, NodeSettings, PanelSettings
 from isomould.parts.supports import Base, make_bases, up_directions
@@ -91,14 +91,65 @@ def make_kit(mesh: Mesh, settings: KitSettings, nodes: NodeParts | None = None) 
     Refused
         If a part cannot be made as asked.
     """
+    with Gathering() as faults:
+        return try_kit(mesh, settings, faults, nodes).kit
+
+
+@dataclass(frozen=True, eq=False)
+class TriedKit:
+    """The parts of a design, each as far as it can be made; `seated` if panels cover enough of their seats."""
+
+    mesh: Mesh
+    arms: Arms
+    nodes: NodeParts
+    joints: Attempt[tuple[Joint, ...]]
+    members: Attempt[MemberParts]
+    panels: Attempt[PanelParts]
+    seated: Attempt[None]
+    bases: Attempt[tuple[Base | None, ...]]
+    torsion: Attempt[Floats]
+    depth: float
+
+    @property
+    def kit(self) -> Kit:
+        """The parts, if all of them can be made.
+
+        Raises
+        ------
+        Refused
+            The first that ended a part.
+        """
+        _ = self.seated.value
+        return Kit(
+            mesh=self.mesh,
+            arms=self.arms,
+            nodes=self.nodes,
+            joints=self.joints.value,
+            members=self.members.value,
+            panels=self.panels.value,
+            bases=self.bases.value,
+            mismatch=beam_mismatch(self.arms, self.depth),
+            torsion=self.torsion.value,
+        )
+
+
+def try_kit(mesh: Mesh, settings: KitSettings, faults: Gathering, nodes: NodeParts | None = None) -> TriedKit:
+    """Make the parts of a design as far as they can be made; `faults` gathers what ends the others."""
     arms = find_arms(mesh)
     nodes = nodes or classify_nodes(mesh, arms, settings.tolerance, standing(mesh, settings))
+    torsion = faults.run(_torsion, mesh, arms, nodes.locations)
+    depth = settings.members.section.depth
+    joints = faults.run(size_nodes, nodes, settings.members, settings.nodes)
+    members = faults.run(lambda: make_members(mesh, arms, nodes, joints.value, settings.members, settings.tolerance))
+    # Panels meet of the nodes what stands proud on them: without nodes they are made as on plain drums.
+    stacks = _stacks(nodes, joints.value) if joints.refused is None else None
+    panels = faults.run(make_panels, mesh, depth, settings.panels, settings.tolerance, stacks)
+    seated = faults.run(lambda: refuse_bearing(panels.value, mesh, settings.panels))
+    bases = faults.run(lambda: make_bases(nodes, joints.value, settings.members, settings.nodes.base_plate))
+    return TriedKit(mesh, arms, nodes, joints, members, panels, seated, bases, torsion, depth)
+
+
+def _torsion(mesh: Mesh, arms: Arms, where: tuple[str, ...]) -> Floats:
     torsion = node_torsion(mesh, arms)
-    refuse_torsion(torsion, nodes.locations)
-    section = settings.members.section
-    joints = size_nodes(nodes, settings.members, settings.nodes)
-    members = make_members(mesh, arms, nodes, joints, settings.members, settings.tolerance)
-    stacks = _stacks(nodes, joints)
-    panels = make_panels(mesh, section.depth, settings.panels, settings.tolerance, stacks)
-    bases = make_bases(nodes, joints, settings.members, settings.nodes.base_plate)
-    return Kit(mesh, arms, nodes, joints, members, panels, bases, beam_mismatch(arms, section.depth), torsion)
+    refuse_torsion(torsion, where)
+    return torsion

@@ -125,7 +125,7 @@ def make_panels(
     Raises
     ------
     Refused
-        If a bearing is too small, or nothing is left of a panel.
+        If nothing is left of a panel, or too little beside its chamfers.
     """
     seats = _find_seats(mesh)
     top = _seat_tops(seats, depth, settings)
@@ -133,10 +133,7 @@ def make_panels(
     deduction = _deductions(mesh, seats, settings.edge_deduction)
     bearing = _bearing(seats, deduction, settings)
     where = locations("P", mesh.face_ij, mesh.face_piece)
-    sides = [
-        f"side {_letter(side)} of {name}" for name, size in zip(where, mesh.sizes, strict=True) for side in range(size)
-    ]
-    _refuse_bearing(bearing, sides, settings)
+    sides = _side_names(mesh, where)
     corners = _outlines(seats, _insets(seats, underside, settings) + deduction)
     _refuse_vanished(seats, corners, sides)
     polygons, sizes = _padded(mesh, corners), mesh.sizes
@@ -168,6 +165,12 @@ def make_panels(
         lowest_corner=(classes.variant - over) % sizes,
         turned_over=over,
     )
+
+
+def _side_names(mesh: Mesh, where: tuple[str, ...]) -> list[str]:
+    """Name all sides (k,) of the panels at these locations."""
+    sizes = zip(where, mesh.sizes, strict=True)
+    return [f"side {_letter(side)} of {name}" for name, size in sizes for side in range(size)]
 
 
 def _letter(side: int) -> str:
@@ -357,7 +360,15 @@ def _flatness(mesh: Mesh) -> Floats:
     return np.maximum.reduceat(np.where(place > 2, off, 0.0), starts)
 
 
-def _refuse_bearing(bearing: Floats, sides: list[str], settings: PanelSettings) -> None:
+def refuse_bearing(panels: PanelParts, mesh: Mesh, settings: PanelSettings) -> None:
+    """Refuse panels that cover too little of a seat.
+
+    Raises
+    ------
+    Refused
+        E-PANEL-BEARING, with the narrowest seat that would do.
+    """
+    bearing, sides = panels.bearing, _side_names(mesh, panels.locations)
     worst = int(np.argmin(bearing))
     if bearing[worst] < settings.min_bearing - 1e-9:
         needed = settings.seat_width + 2 * (settings.min_bearing - bearing[worst])

@@ -1,7 +1,6 @@
 """Drawings as DXF, 1:1 in mm, one process per layer, the same bytes every time."""
 
 import io
-import re
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from functools import singledispatch
@@ -14,13 +13,11 @@ from ezdxf.layouts.layout import Modelspace
 
 from isomould.documents.drawing import Circle, CutDrawing, Entity, Label, Layer, Polyline, Segment3D
 from isomould.documents.drawing_checks import check_drawing
-from isomould.errors import Refused
 from isomould.writers.disk import write_bytes
-from isomould.writers.settings import Version
+from isomould.writers.settings import Version, layer_names
 
 _MILLIMETRES = 4
 _METRIC = 1
-_LAYER_NAME = re.compile(r'[^\x00-\x1f<>/\\":;?*|=`]{1,31}')
 _COLOURS: dict[Layer, int] = {
     "CUT": 1,
     "CUT_INNER": 6,
@@ -52,7 +49,7 @@ def write_dxf(
     Raises
     ------
     Refused
-        If a machine cannot work the drawing (`check_drawing`), or layer names are invalid or shared.
+        If a machine cannot work the drawing (`check_drawing`).
     OutputFault
         If the file cannot be written.
     """
@@ -61,20 +58,6 @@ def write_dxf(
     with fixed_meta_data():
         data = dxf_bytes(_document(drawing, names, version))
     write_bytes(path, data)
-
-
-def layer_names(layers: Mapping[Layer, str]) -> dict[Layer, str]:
-    """Complete the shop's layer names with ours; two processes never share a layer.
-
-    >>> layer_names({"CUT": "SCHNITT"})["CUT"], layer_names({})["DRILL"]
-    ('SCHNITT', 'DRILL')
-    """
-    names: dict[Layer, str] = {layer: layers.get(layer, layer) for layer in _COLOURS}
-    invalid = [repr(name) for name in names.values() if not _LAYER_NAME.fullmatch(name)]
-    if invalid or len({name.upper() for name in names.values()}) < len(names):
-        limit = 'one name of 1 to 31 characters per layer, without < > / \\ " : ; ? * | = `'
-        raise Refused("E-OUT-05", "deliver.layers", ", ".join(invalid or names.values()), limit, "Rename the layers.")
-    return names
 
 
 def _document(drawing: CutDrawing, names: Mapping[Layer, str], version: Version) -> Drawing:

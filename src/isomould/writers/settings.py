@@ -1,6 +1,8 @@
 """The `[deliver]` table: what is written, and under which layer names."""
 
-from typing import Annotated, Literal
+from collections import Counter
+from collections.abc import Mapping
+from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, Field
 
@@ -11,6 +13,33 @@ from isomould.units import Flag, Length
 
 LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]
+
+
+_TAKEN = frozenset(("0", "DEFPOINTS"))
+"""Layers that every DXF file has; nothing on the second is plotted."""
+
+
+def layer_names(layers: Mapping[Layer, str]) -> dict[Layer, str]:
+    """Complete the shop's names of layers with ours.
+
+    >>> layer_names({"CUT": "SCHNITT"})["CUT"], layer_names({})["DRILL"]
+    ('SCHNITT', 'DRILL')
+    """
+    return {layer: layers.get(layer, layer) for layer in get_args(Layer)}
+
+
+def _names_apart(layers: dict[Layer, str]) -> dict[Layer, str]:
+    """Hold the layers to a name of its own each: two processes never share a layer."""
+    names = [name.upper() for name in layer_names(layers).values()]
+    taken = sorted(_TAKEN & set(names))
+    if taken:
+        message = f"{' and '.join(taken)} is a layer of DXF itself; names of your own"
+        raise ValueError(message)
+    twins = [name for name, count in Counter(names).items() if count > 1]
+    if twins:
+        message = f"two layers are called {twins[0]}; a name of its own for every layer, our own names among them"
+        raise ValueError(message)
+    return layers
 
 
 Version = Literal["R2010", "R12"]
@@ -41,7 +70,7 @@ class DoubleLayerSettings(Settings):
 class DeliverSettings(Settings):
     """The `[deliver]` table."""
 
-    layers: dict[Layer, LayerName] = Field(default_factory=dict[Layer, str])
+    layers: Annotated[dict[Layer, LayerName], AfterValidator(_names_apart)] = Field(default_factory=dict[Layer, str])
     """Other names for the layers of the machine DXF."""
     dxf: Annotated[tuple[Version, ...], AfterValidator(_with_ours)] = ("R2010",)
     """Versions of the machine DXF; R12 twins lie in `r12/`."""
