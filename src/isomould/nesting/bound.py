@@ -66,12 +66,12 @@ def _least(needs: Mapping[tuple[bool, ...], float], stock: StockSettings, cost: 
     return float(found.fun or 0.0)
 
 
-def too_few(outlines: Sequence[Floats], stock: StockSettings) -> tuple[float, float] | None:
+def too_few(parts: Sequence[shapely.Polygon], stock: StockSettings) -> tuple[float, float] | None:
     """Give the area that parts need and the room of all sheets that hold them, mm², where the room is the smaller.
 
     No search is needed to know it: parts that fit a few sizes only need the area of those, and of no others.
     """
-    needs = _needs(outlines, stock)
+    needs = _needs(parts, stock)
     for sizes in needs:
         need = sum(area for other, area in needs.items() if _within(other, sizes))
         rooms = [_all_rooms(sheet, stock) for sheet, fit in zip(stock.sheets, sizes, strict=True) if fit]

@@ -22,7 +22,7 @@ def refuse_scarce_sheets(parts: Sequence[Part], stock: StockSettings) -> None:
     """
     if all(sheet.quantity is None for sheet in stock.sheets):
         return
-    found = too_few([part.outline for part in parts for _ in range(part.quantity)], stock)
+    found = too_few([part.polygon for part in parts for _ in range(part.quantity)], stock)
     if found is not None:
         need, room = (area / 1e6 for area in found)
         need_text, room_text = f"parts and their gaps need {need:.2f} m²", f"the sheets that hold them, {room:.2f} m²"
