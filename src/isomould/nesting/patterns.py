@@ -176,14 +176,14 @@ class _Zones:
     make: Callable[[int], Zone]
 
 
-def _zones(frame: Frame, pairs: Sequence[tuple[Frame, Priced]]) -> _Zones:
+def _zones(frame: Frame, pairs: Sequence[tuple[Frame, Priced]], *, least: bool = False) -> _Zones:
     """Fill zones of every size with runs of the frame that cuts the same sheet the other way, if there is one."""
-    for other, priced in pairs:
+    for other, priced in pairs if frame.zones else ():
         if other.stock == frame.stock and other.turned != frame.turned and priced.tables:
             sizes = _sizes(min(frame.room // frame.step, other.capacity))
             step = other.step * -(-other.room // (other.step * LEVELS))
-            heights = -(-(priced.heights + other.gap) // step)
-            stacks = stack_up(heights, np.array(priced.tables)[:, sizes], other.room // step)
+            heights = _steps(priced.heights + other.gap, step, least=least)
+            stacks = stack_up(heights, np.array(priced.tables)[:, sizes], _room(other, step, least=least))
             filled = np.flatnonzero(stacks.worth[-1] > 0)
             make = partial(_zone, frame, (sizes, filled), stacks, priced)
             return _Zones(sizes[filled], stacks.worth[-1, filled], make)
@@ -203,12 +203,25 @@ def _sizes(room: int) -> Ints:
     return np.arange(room % coarse or coarse, room + 1, coarse)
 
 
-def _best_stack(frame: Frame, own: Priced, zones: _Zones) -> tuple[Stacks, Ints]:
-    """Stack runs and zones; the items of the stack are those of `own`, then the zones, in the order given beside."""
-    heights = np.append(-(-(own.heights + frame.gap) // frame.step), zones.sizes)
+def _steps(heights: Ints, step: int, *, least: bool) -> Ints:
+    """Give the steps that heights take: the least that bounds them, or enough to hold them."""
+    return np.maximum(heights // step, 1) if least else -(-heights // step)
+
+
+def _room(frame: Frame, step: int, *, least: bool) -> int:
+    return -(-frame.room // step) if least else frame.room // step
+
+
+def _best_stack(frame: Frame, own: Priced, zones: _Zones, *, least: bool = False) -> tuple[Stacks, Ints]:
+    """Stack runs and zones; the items of the stack are those of `own`, then the zones, in the order given beside.
+
+    With `least` heights are rounded down and the room up, so that no sheet is worth more than the stack.
+    """
+    heights = np.append(_steps(own.heights + frame.gap, frame.step, least=least), zones.sizes)
     order = np.argsort(heights, kind="stable")
     worth = np.append(own.worth, zones.worth)[order]
-    return stack_up(heights[order], worth[:, None], frame.room // frame.step), order
+    room = _room(frame, frame.step, least=least)
+    return stack_up(heights[order], worth[:, None], room), order
 
 
 def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
@@ -220,12 +233,17 @@ def _best_sheet(frame: Frame, own: Priced, zones: _Zones) -> SheetPlan:
 
 
 def bound_pattern(rack: Rack, counts: Ints, worth: Floats) -> int:
-    """Bound the cost of sheets that are stacks of strips and zones, all measured on the grid (Farley).
+    """Bound the cost of sheets that are stacks of strips and zones, along either side, lengths on the grid (Farley).
 
     Whatever pieces are worth: if no sheet holds more than its cost times v, all pieces together need their worth
     divided by v.
     """
     priced = [price(f.kinds, counts, worth, f.capacity, all_lengths=True) for f in rack.frames]
     pairs = list(zip(rack.frames, priced, strict=True))
-    most = [float(_best_stack(f, own, _zones(f, pairs))[0].worth[-1, 0]) / f.cost for f, own in pairs]
+    most = [_most_worth(frame, own, pairs) / frame.cost for frame, own in pairs]
     return math.ceil(float(worth @ counts) / max(most) - 1e-6)
+
+
+def _most_worth(frame: Frame, own: Priced, pairs: Sequence[tuple[Frame, Priced]]) -> float:
+    stacks, _ = _best_stack(frame, own, _zones(frame, pairs, least=True), least=True)
+    return float(stacks.worth[-1, 0])

@@ -46,6 +46,7 @@ class Case:
     height: int
     cost: float
     area: float
+    zones: bool = True
 
 
 def sort_classes(parts: Sequence[Part]) -> tuple[PartClass, ...]:
@@ -117,14 +118,22 @@ def _areas(classes: Sequence[PartClass], rooms: Sequence[Room]) -> Floats:
 def _frames(
     index: int, rooms: Sequence[Room], classes: Sequence[PartClass], stock: StockSettings, grid: Grid
 ) -> list[Frame]:
+    """Give both ways to cut a sheet: strips along its width, and along its height.
+
+    A strip along the height is planned lying and then turned, so that a part keeps its own position on the sheet when
+    it stands turned by a quarter in the plan. Without half turns a part must not be mirrored there, nor lie in
+    a zone: either would come out upside down.
+    """
     sheet, room = stock.sheets[index], rooms[index]
-    turns = (0, 90) if 90 in allowed_rotations_deg(stock, sheet) else (0,)
-    kinds = classes_by_kind(classes, turns, grid)
+    quarters = 90 in allowed_rotations_deg(stock, sheet)
     share = room.width * room.height / max(room.width * room.height for room in rooms)
     cost = _cost(sheet, stock.sheets, share)
     lying = Case(index, False, room.width, room.height, cost, share)
-    upright = Case(index, True, room.height, room.width, cost, share)
-    return [_frame(case, kinds, grid) for case in (lying, upright)[: len(turns)]]
+    upright = Case(index, True, room.height, room.width, cost, share, zones=grid.flips)
+    over = grid if grid.flips else replace(grid, turns_over=False)
+    along = classes_by_kind(classes, (0, 90) if quarters else (0,), grid)
+    across = along if quarters else classes_by_kind(classes, (90,), over)
+    return [_frame(lying, along, grid), _frame(upright, across, grid)]
 
 
 def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> float:
@@ -155,6 +164,7 @@ def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
         cost=case.cost,
         area=case.area,
         kinds=tuple(kind for kind in fitting if kind.items),
+        zones=case.zones,
     )
 
 

@@ -36,7 +36,7 @@ class Frame:
     """One way to cut one stock sheet: strips along its width, or (turned) along its height.
 
     `capacity` in grid steps and `room` in micrometres are length and height inside the trim, one gap added;
-    `area` in shares of the largest sheet.
+    `area` in shares of the largest sheet. `zones` tells whether strips may be cut across.
     """
 
     stock: int
@@ -48,6 +48,7 @@ class Frame:
     cost: float
     area: float
     kinds: tuple[Kind, ...]
+    zones: bool = True
 
     @cached_property
     def named(self) -> dict[tuple[int, int], Item]:
