@@ -196,6 +196,8 @@ class NestFiles:
         Whether a folder of earlier sheets may be replaced.
     units, layer
         Of drawings and tables that do not say their unit; where drawings have their outline.
+    columns
+        Headings of a table by what they mean, such as `{"id": "Label"}`; others are found by the words of the trade.
     """
 
     stock: Path | None = None
@@ -206,6 +208,7 @@ class NestFiles:
     overwrite: bool = False
     units: LengthUnit | None = None
     layer: str = "CUT"
+    columns: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 def nest(
@@ -225,7 +228,8 @@ def nest(
     Parameters
     ----------
     instance
-        A list of parts or of members (JSON, CSV), a folder of drawings, or a delivered folder, whose panels are nested.
+        A list of parts or of members (a table or JSON), a folder of drawings, or a delivered folder, whose panels are
+        nested.
     out
         The layout file. It and the others are proved before they are published, each whole or not at all.
     effort
@@ -250,15 +254,16 @@ def nest(
     """
     stop, files = stop or Stop(), files or NestFiles()
     targets = Targets(Path(out), files.sheets, files.plan, files.saw_list, files.overwrite)
-    members = lists_members(Path(instance))
+    stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
+    asked = Asked(stock, files.units, files.layer, files.columns)
+    members = lists_members(Path(instance), asked.reading, stock)
     check_targets(targets, "members" if members else "parts")
     refuse_overwriting(targets, [Path(instance), *([files.stock] if files.stock else [])])
-    stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
     if members:
         _refuse_time_limit(stop)
-        listed = read_member_list(Path(instance), stock, files.units)
+        listed = read_member_list(Path(instance), stock, asked.reading)
         return _nest_members(listed, effort, targets, remark or _ignore)
-    given = read_part_list(Path(instance), Asked(stock, files.units, files.layer))
+    given = read_part_list(Path(instance), asked)
     for note in given.notes:
         (remark or _ignore)(note)
     layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))

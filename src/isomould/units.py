@@ -1,6 +1,7 @@
 """Lengths with units, parsed once at the border: inside the program every length is in mm."""
 
 import re
+import unicodedata
 from fractions import Fraction
 from typing import Annotated, Literal
 
@@ -19,10 +20,64 @@ LONGEST = 1e9
 FARTHEST = 1e11
 """Places on maps lie within a hundred thousand kilometres of their origin, mm; there a float resolves 0.00002 mm."""
 
-_QUANTITY = re.compile(
-    r"\s*(?P<sign>[+-]?)(?:(?P<whole>\d+)\s+)?(?P<number>\d+/[1-9]\d*|\d*\.?\d+(?:[eE][+-]?\d+)?|\d+\.)"
-    r"\s*(?P<unit>mm|cm|m|in|ft)\s*"
+UNIT_WORDS: dict[str, LengthUnit] = {
+    **dict.fromkeys(("mm", "millimeter", "millimetre", "millimeters", "millimetres"), "mm"),
+    **dict.fromkeys(("cm", "centimeter", "centimetre", "centimeters", "centimetres"), "cm"),
+    **dict.fromkeys(("m", "meter", "metre", "meters", "metres"), "m"),
+    **dict.fromkeys(("in", "inch", "inches", "zoll", '"', "″", "”", "''"), "in"),
+    **dict.fromkeys(("ft", "foot", "feet", "'", "′", "’"), "ft"),
+}
+"""How units are written: on drawings, in cells and in headings."""
+
+_EXPONENT = r"(?:[eE][+-]?\d{1,3})?"
+_NUMBER = rf"\d+[\s-]+\d+/[1-9]\d*|\d+/[1-9]\d*|\d+\.?\d*{_EXPONENT}|\.\d+{_EXPONENT}"
+_UNIT = r"[a-zA-Z]+|\"|″|”|''|'|′|’"
+_ONE = re.compile(rf"(?P<sign>[+-]?)\s*(?P<number>{_NUMBER})\s*(?P<unit>{_UNIT})?\.?")
+_FEET = re.compile(
+    r"(?P<sign>[+-]?)\s*(?P<feet>\d+)\s*(?:'|′|’|ft\.?|feet|foot)[\s-]*"
+    rf"(?P<number>{_NUMBER})\s*(?P<unit>{_UNIT})?\.?"
 )
+
+_INCHES_PER_FOOT = 12
+
+Written = tuple[Fraction, LengthUnit | None]
+"""A number and its unit; None where it has none."""
+
+
+def read_length(text: str) -> Written | None:
+    """Give number and unit of a length as people write it, feet and inches together as inches; None if it is none.
+
+    >>> read_length('27 7/8"') == (Fraction(223, 8), "in"), read_length("650 mm")
+    (True, (Fraction(650, 1), 'mm'))
+    >>> read_length("12 ft 3½ in") == (Fraction(295, 2), "in"), read_length("5½"), read_length("a few")
+    (True, (Fraction(11, 2), None), None)
+    """
+    text = _spell_out(text)
+    feet = _FEET.fullmatch(text)
+    match = feet or _ONE.fullmatch(text)
+    if match is None:
+        return None
+    unit = UNIT_WORDS.get((match["unit"] or "").casefold())
+    if match["unit"] and unit is None:
+        return None
+    number = sum(Fraction(part) for part in re.split(r"[\s-]+(?=\d+/)", match["number"]))
+    if feet is not None:
+        # Twelve inches are another foot: 1'90 is a slip, or thousands that are written in Swiss style.
+        if unit not in (None, "in") or number >= _INCHES_PER_FOOT:
+            return None
+        number, unit = number + _INCHES_PER_FOOT * Fraction(feet["feet"]), "in"
+    return Fraction(-number if match["sign"] == "-" else number), unit
+
+
+def in_mm(number: Fraction, unit: LengthUnit) -> Fraction:
+    """Give a length in mm, exactly."""
+    return number * Fraction(str(MM_PER_UNIT[unit]))
+
+
+def _spell_out(text: str) -> str:
+    """Write 5½ as 5 1/2."""
+    signs = (f" {unicodedata.normalize('NFKC', sign)}" if unicodedata.category(sign) == "No" else sign for sign in text)
+    return "".join(signs).replace("\u2044", "/").strip()
 
 
 def parse_length(value: object) -> float:
@@ -60,16 +115,14 @@ def _parse(value: object, limit: float) -> float:
 
 
 def _parse_text(text: str) -> Fraction:
-    match = _QUANTITY.fullmatch(text)
     if re.search(r"\d,\d", text):
         message = f"{text!r} has a decimal comma; a decimal point"
         raise ValueError(message)
-    if match is None or (match["whole"] and "/" not in match["number"]):
+    number, unit = read_length(text) or (Fraction(0), None)
+    if unit is None:
         message = f"{text!r} is not a length; a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
         raise ValueError(message)
-    number = Fraction(match["number"]) + Fraction(match["whole"] or 0)
-    sign = -1 if match["sign"] == "-" else 1
-    return sign * number * Fraction(str(MM_PER_UNIT[match["unit"]]))
+    return in_mm(number, unit)
 
 
 def _finite(length: float | Fraction, value: object, limit: float) -> float:

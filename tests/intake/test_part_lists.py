@@ -57,11 +57,10 @@ class TestCsv:
         [
             ("P1,6,900,820,700,40,40,", "P1,6,900,5,820,5,700,40,40,", "line 2.*10 cells.*Decimal commas"),
             ("X7", "P1", "P1.*given twice"),
-            ("quantity", "number", "no column 'quantity'"),
             (",900,", ",nan,", "line 2: a.*'nan'"),
             (",900,", ",inf,", "line 2: a.*'inf'"),
-            (",900,", ",1'000,", "line 2: a"),
-            ("P1,6,", "P1,0,", "line 2: quantity.*'0'"),
+            (",900,", ",1'90,", "line 2: a"),
+            ("P1,6,", "P1,-1,", "line 2: quantity.*'-1'"),
             ("P1,6,", "P1,2.5,", "line 2: quantity"),
             ("500,0;620,300;0,400", "500,400;500,0;0,400", "touches or crosses itself"),
             ("500,0;620", "500,0,1;620", "line 3: points"),

@@ -13,8 +13,10 @@ import isomould
 from isomould.cli.console import INTERRUPTED, catch_signals, say, warn
 from isomould.cli.options import EFFORT
 from isomould.errors import Note, Refused
+from isomould.intake.columns_found import column_of
 from isomould.intake.member_list import lists_members
-from isomould.intake.stock import bar_of, length_of, sheet_of
+from isomould.intake.stock import bar_of, length_of, read_stock, sheet_of
+from isomould.intake.table_words import Reading
 from isomould.nesting.layout import BarLayout, Layout
 from isomould.nesting.search import Effort
 from isomould.nesting.settings import BarEnds, Turning
@@ -39,6 +41,7 @@ class _Quantity(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] 
 
 _LENGTH, _SHEET = _Quantity("length", length_of), _Quantity("width x height", sheet_of)
 _BAR = _Quantity("section=length", bar_of)
+_COLUMN = _Quantity("name=heading", column_of)
 
 
 def _stocked(command: Callable[..., None]) -> Callable[..., None]:
@@ -92,6 +95,7 @@ _OF_BARS = {"bar", "bar_kerf", "bar_trim", "bar_ends"}
 @click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
 @click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
 @click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
+@click.option("--column", "columns", type=_COLUMN, multiple=True, help="Such as id=Label: what a heading means.")
 @click.option("--quiet", is_flag=True, help="No progress.")
 def nest(
     instance: Path,
@@ -104,7 +108,9 @@ def nest(
 ) -> None:
     """Nest parts of any origin on sheets, members on bars: JSON, CSV, a folder of drawings (DXF), or a delivery."""
     stop, tell = Stop(time_limit), _say_nothing if quiet else warn
-    members = lists_members(instance)
+    files["columns"] = dict(files["columns"])
+    own = read_stock(files["stock"]) if files["stock"] else {}
+    members = lists_members(instance, Reading(files["units"], files["columns"]), {**own, **files["changes"]})
     _refuse_stock_of_others(files["changes"], members)
     if members:
         tell(f"nesting {instance}")

@@ -1,44 +1,49 @@
-"""Lists of members as CSV or JSON: what is cut from bars."""
+"""Lists of members as tables or JSON: what is cut from bars."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from isomould.errors import Note
-from isomould.intake.csv_list import MEMBERS, Line, Sheet, heading_names, read_sheet
-from isomould.intake.instance import make_stock, parse_json, read_text
+from isomould.intake.csv_list import Sheet, heading_names, read_sheet
+from isomould.intake.instance import NOTHING, make_stock, parse_json, read_text
 from isomould.intake.member_rows import MemberList, read_members, refuse_unlike_ends
 from isomould.intake.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show
-from isomould.units import LengthUnit
+from isomould.intake.table_rows import is_table
+from isomould.intake.table_words import MEMBERS, Line, Reading
 
 _STOCK = {"bars", "bar_kerf", "bar_trim", "bar_ends"}
 _ANGLES = ("end_angle_start", "end_angle_end")
 
 
-def lists_members(path: Path) -> bool:
-    """Tell a list of members by its columns `section` and `length`, or in JSON by its key `members`."""
+def lists_members(path: Path, asked: Reading | None = None, stock: Mapping[str, Any] = NOTHING) -> bool:
+    """Tell a list of members: by its columns `section` and `length`, or in JSON by its key `members`.
+
+    A table that has a width or a height too lists members where the stock has bars alone.
+    """
     if path.is_dir():
         return False
-    if path.suffix.lower() == ".csv":
-        names = heading_names(path, MEMBERS)
-        return {"section", "length"} <= names and not {*TRAPEZOID, "points"} & names
+    if is_table(path):
+        names = heading_names(path, asked or Reading())
+        flat = bool({"width", "height"} & names) and ("sheets" in stock or "bars" not in stock)
+        return {"section", "length"} <= names and not flat and not {*TRAPEZOID, "points"} & names
     table = parse_json(read_text(path, "a JSON file in UTF-8"), str(path))
     return isinstance(table, dict) and "members" in table
 
 
 def read_member_list(
-    path: Path, asked: Mapping[str, Any], units: LengthUnit | None = None
+    path: Path, stock: Mapping[str, Any], asked: Reading | None = None
 ) -> tuple[MemberList, tuple[Note, ...]]:
     """Read a list of members, and what should be known of it.
 
     Parameters
     ----------
     path
-        A CSV file, or else JSON.
-    asked
+        A table, or else JSON.
+    stock
         Keys of the `[stock]` table that take the place of the file's own.
-    units
-        Of columns that do not say theirs.
+    asked
+        What the user says of a table.
 
     Raises
     ------
@@ -47,9 +52,9 @@ def read_member_list(
     OutputFault
         If the file cannot be read.
     """
-    if path.suffix.lower() == ".csv":
-        sheet = read_sheet(path, units, MEMBERS)
-        return _made(path.stem, [_row(sheet, line) for line in sheet.lines], asked, str(path)), sheet.notes
+    if is_table(path):
+        sheet = read_sheet(path, MEMBERS, asked)
+        return _made(path.stem, [_row(sheet, line) for line in sheet.lines], stock, str(path)), sheet.notes
     file = str(path)
     table = mapping(parse_json(read_text(path, "a JSON file in UTF-8"), file), file)
     refuse_unknown(table, {"name", "members", *_STOCK}, file)
@@ -58,7 +63,7 @@ def read_member_list(
         refuse(f"{file}: members", show(rows), "a list with at least one member")
     own = {key: table[key] for key in table if key in _STOCK}
     named = [(row, f"{file}: members[{k}]") for k, row in enumerate(rows)]
-    return _made(name if isinstance(name, str) else show(name), named, {**own, **asked}, file), ()
+    return _made(name if isinstance(name, str) else show(name), named, {**own, **stock}, file), ()
 
 
 def _made(name: str, rows: list[Row], stock: Mapping[str, Any], file: str) -> MemberList:

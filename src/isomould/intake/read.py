@@ -4,17 +4,20 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, NoReturn, get_args
 
 from isomould.arrays import Floats
 from isomould.errors import Note
-from isomould.intake.csv_list import PARTS, Line, Sheet, read_sheet
+from isomould.intake.csv_list import Sheet, read_sheet
 from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
 from isomould.intake.hole_rings import ring_around
 from isomould.intake.instance import Instance, make_stock, read_instance
 from isomould.intake.numbers import to_count
 from isomould.intake.part_list import PartList
 from isomould.intake.part_rows import TRAPEZOID, Row, read_parts, refuse
+from isomould.intake.rectangles import Sides, box_note, rectangle, sides_of
+from isomould.intake.table_rows import is_table
+from isomould.intake.table_words import PARTS, Line, Reading
 from isomould.nesting.layout import Part
 from isomould.units import LengthUnit
 
@@ -26,15 +29,21 @@ _NAMED = re.compile(r"(?P<id>.+?)[ _-](?:x(?P<after>\d+)|(?P<before>\d+)x)", re.
 
 @dataclass(frozen=True)
 class Asked:
-    """What a user says beside the part list: keys of the `[stock]` table, units, and the layer of outlines."""
+    """What a user says beside the part list: keys of the `[stock]` table, units, the layer of outlines, columns."""
 
     stock: Mapping[str, Any] = field(default_factory=dict[str, Any])
     units: LengthUnit | None = None
     layer: str = "CUT"
+    columns: Mapping[str, str] = field(default_factory=dict[str, str])
+
+    @property
+    def reading(self) -> Reading:
+        """What of it concerns tables."""
+        return Reading(self.units, self.columns)
 
 
 def read_part_list(path: Path, asked: Asked | None = None) -> PartList:
-    """Read a part list: a folder of drawings, a delivered folder (its panels), a CSV file, or else JSON.
+    """Read a part list: a folder of drawings, a delivered folder (its panels), a table, or else JSON.
 
     Raises
     ------
@@ -48,8 +57,8 @@ def read_part_list(path: Path, asked: Asked | None = None) -> PartList:
     if path.is_dir():
         delivered = path / "panels"
         return _read_folder(delivered if (path / "tables" / "panels.csv").is_file() else path, asked)
-    if path.suffix.lower() == ".csv":
-        return _read_csv(path, asked)
+    if is_table(path):
+        return _read_table(path, asked)
     return PartList(read_instance(path, asked.stock))
 
 
@@ -58,11 +67,11 @@ def _refuse_units(asked: Asked) -> None:
         refuse("--units", repr(asked.units), f"one of {', '.join(get_args(LengthUnit))}", "Name a unit.")
 
 
-# --- CSV
+# --- tables
 
 
-def _read_csv(path: Path, asked: Asked) -> PartList:
-    sheet = read_sheet(path, asked.units, PARTS)
+def _read_table(path: Path, asked: Asked) -> PartList:
+    sheet = read_sheet(path, PARTS, asked.reading)
     drawn = {line.field: read_drawn_part(file, asked.layer, asked.units) for line, file in _files(sheet, path.parent)}
     return _made(path.stem, sheet, drawn, asked)
 
@@ -83,26 +92,44 @@ def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
 
 def _made(name: str, sheet: Sheet, drawn: Mapping[str, DrawnPart], asked: Asked) -> PartList:
     """Make the parts of a table, some of them drawn."""
-    rows = [_row(sheet, line, drawn.get(line.field)) for line in sheet.lines]
+    sides = sides_of(sheet)
+    rows = [_row(sheet, line, drawn.get(line.field), sides) for line in sheet.lines]
     parts = read_parts(rows, sheet.file)
     instance = Instance(name, parts, make_stock(asked.stock, sheet.file))
-    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], sheet.notes)
+    notes = (*sheet.notes, *box_note(sheet, sides))
+    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], notes)
 
 
-def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None) -> Row:
+def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None, sides: Sides | None) -> Row:
     group = {"row": line.cells["row"]} if line.cells.get("row") else {}
     table = {"id": line.cells["id"], "quantity": sheet.quantity(line), **group}
     if drawn is not None:
         return {**table, "points": drawn.outline.tolist()}, line.field
+    return {**table, **_shape(sheet, line, sides)}, line.field
+
+
+def _shape(sheet: Sheet, line: Line, sides: Sides | None) -> dict[str, Any]:
+    """Give the outline of a row that is not drawn: corners, a trapezoid, or a rectangle."""
     if line.cells.get("points"):
-        return {**table, "points": sheet.points(line)}, line.field
+        return {"points": sheet.points(line)}
     missing = [key for key in TRAPEZOID if not line.cells.get(key)]
+    if missing and sides is not None:
+        return rectangle(sheet, line, sides)
+    if missing and set(TRAPEZOID) <= set(line.cells):
+        limit = "files, or points, or all of a, b, h, ol, orr"
+        refuse(line.field, f"no {', no '.join(missing)}", limit, "Describe the part in one of these ways.")
     if missing:
-        found = f"no {', no '.join(missing)}"
-        refuse(
-            line.field, found, "files, or points, or all of a, b, h, ol, orr", "Describe the part in one of these ways."
-        )
-    return {**table, **{key: sheet.number(line, key) for key in TRAPEZOID}}, line.field
+        _refuse_shapeless(sheet, line)
+    return {key: sheet.number(line, key) for key in TRAPEZOID}
+
+
+def _refuse_shapeless(sheet: Sheet, line: Line) -> NoReturn:
+    """Say what was found of a shape, and what is missing."""
+    sizes = [name for name in ("length", "width", "height") if name in line.cells]
+    found = f"{sizes[0] if sizes else 'no size'} alone, in columns {', '.join(sheet.headings)}"
+    limit = "two of length, width and height, or a, b, h, ol and orr, or points, or files"
+    way_out = f"Say --column {'width' if 'length' in sizes else 'length'}=HEADING, or name the column so."
+    refuse(sheet.file, found, limit, way_out)
 
 
 def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes: tuple[Note, ...]) -> PartList:
@@ -147,7 +174,7 @@ def _table_of(folder: Path) -> Path | None:
 
 def _read_listed(table: Path, drawings: Sequence[Path], asked: Asked) -> PartList:
     """Read the drawings that a table counts: named there, or called like the part."""
-    sheet = read_sheet(table, asked.units, PARTS)
+    sheet = read_sheet(table, PARTS, asked.reading)
     by_name = {path.stem: path for path in drawings}
     named = {line.field: file for line, file in _files(sheet, table.parent)}
     files = {line.field: named.get(line.field) or by_name.get(line.cells["id"]) for line in sheet.lines}
