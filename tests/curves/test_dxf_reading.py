@@ -334,14 +334,19 @@ def test_blocks_that_cannot_be_placed_are_refused(draw):
 
     assert "scales 0, 1, 1" in refused(draw, collapsed)
 
+    text = refused(draw, lambda pen: pen.blockref("NONE", (0, 0)))
+    assert "refers to another drawing, or to no block" in text
+
+
+def test_a_block_of_other_units_is_read_as_its_insert_scales_it(draw):
     def in_metres(pen):
         block_of(pen)
         pen.document.blocks.get("PART").units = 6
-        pen.blockref("PART", (0, 0))
+        pen.blockref("PART", (0, 0), dxfattribs={"xscale": 2, "yscale": 2, "zscale": 2})
 
-    assert "E-DXF-BLOCK" in refused(draw, in_metres)
-    text = refused(draw, lambda pen: pen.blockref("NONE", (0, 0)))
-    assert "refers to another drawing, or to no block" in text
+    curve, notes = draw(in_metres)
+    np.testing.assert_allclose(ends(curve), [(0, 0), (3000, 1800)], atol=1e-9)
+    assert notes[0].code == "W-DXF-BLOCK"
 
 
 # --- in space
@@ -372,9 +377,9 @@ def test_an_upright_arc_in_the_world(draw):
 
 def test_what_leaves_the_plane_is_refused(draw):
     plane = build_plane("xz")
-    text = refused(draw, lambda pen: pen.line((0, 2e-6, 0), (9000, 0, 0)), plane=plane, drawn="world")
+    text = refused(draw, lambda pen: pen.line((0, 0.02, 0), (9000, 0, 0)), plane=plane, drawn="world")
     assert "E-DRAWN-PLANE" in text
-    assert "by 2e-06 mm" in text
+    assert "by 0.02 mm" in text
     text = refused(draw, lambda pen: pen.line((0, 0, 0), (9000, 0, 1)))
     assert "leaves the height of the drawing by 1 mm" in text
 
@@ -421,13 +426,19 @@ def test_units_of_the_project_file(draw):
     assert length(draw(nine, insunits=6, units="m")[0]) == 9000
 
 
+def test_units_of_the_project_file_win_with_a_note_that_names_both(draw):
+    curve, notes = draw(nine, insunits=4, units="m")
+    assert length(curve) == 9000
+    assert [n.code for n in notes] == ["W-DRAWN-UNITS"]
+    assert "read in m as asked, although the file says mm" in notes[0].text
+    assert length(draw(nine, insunits=18, units="m")[0]) == 9000
+
+
 @pytest.mark.parametrize(
     ("code", "table", "says"),
     [
         (0, {}, "rail.curve.units: a drawing without units"),
-        (4, {"units": "m"}, "m (1000 mm), but the drawing says $INSUNITS 4 (1 mm)"),
-        (3, {}, "drawing units $INSUNITS 3"),
-        (3, {"units": "m"}, "drawing units $INSUNITS 3"),
+        (18, {}, "drawing units $INSUNITS 18"),
     ],
 )
 def test_unknown_units_are_refused(draw, code, table, says):
@@ -457,8 +468,8 @@ def doubled(pen):
     pen.line((9000, 0), (0, 0))
 
 
-def smoothed(pen):
-    pen.polyline2d([(0, 0), (9000, 0)]).dxf.flags = 4
+def mesh(pen):
+    pen.polyline2d([(0, 0), (9000, 0)]).dxf.flags = 64
 
 
 def false_closure(pen):
@@ -476,7 +487,7 @@ def bad_knots(pen):
 @pytest.mark.parametrize(
     ("sketch", "code", "says"),
     [
-        (two_lines(0.01), "CURVES", "their nearest ends are 0.01 mm apart"),
+        (two_lines(0.02), "CURVES", "their nearest ends are 0.02 mm apart"),
         (branching, "CURVES", "3 ends meet at (9000, 0): LINE"),
         (doubled, "CURVES", "lie on each other"),
         (lambda pen: pen.line((5, 5), (5, 5)), "CURVES", "only points"),
@@ -489,12 +500,12 @@ def bad_knots(pen):
         (lambda pen: pen.lwpolyline([(float("inf"), 0), (9, 9)]), "NUMBER", "LWPOLYLINE 30: a number"),
         (lambda pen: pen.circle((0, 0), 0), "ENTITY", "radius 0"),
         (lambda pen: pen.circle((0, 0), -5), "ENTITY", "radius -5"),
-        (smoothed, "ENTITY", "smoothed polyline"),
+        (mesh, "ENTITY", "a mesh"),
         (lambda pen: pen.spline([(0, 0), (0, 0)]), "ENTITY", "1 different fit points"),
         (false_closure, "CURVES", "says that it is closed, but its ends are 12000 mm apart"),
         (bad_weights, "", "E-SPLINE-WEIGHTS rail.curve, SPLINE"),
         (bad_knots, "", "7 knots"),
-        (lambda pen: pen.line((0, 0), (9, 9), dxfattribs={"layer": "OTHER"}), "LAYER", "one of OTHER"),
+        (lambda pen: pen.line((0, 0), (9, 9), dxfattribs={"layer": "OTHER"}), "LAYER", "one of 'OTHER' (1 LINE)"),
         (lambda pen: None, "LAYER", "nothing on layer 'RAIL'"),
     ],
 )
@@ -538,9 +549,10 @@ def read(path):
         (bytes(range(256)) * 40, "does not end like a DXF file"),
         (b"AutoCAD Binary DXF\r\n\x1a\x00rest", "binary DXF"),
         (b"nonsense\n  0\nEOF\n", "is damaged"),
-        (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nx\n  0\nENDSEC\n  0\nEOF\n", "is damaged"),
+        (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n  0\nENDSEC\n  0\nEOF\n", "is damaged"),
+        (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n  0\nEOF\n", "section ENTITIES has no end"),
     ],
-    ids=["empty", "text", "garbage", "binary", "headless", "no number"],
+    ids=["empty", "text", "garbage", "binary", "headless", "a line lost", "no end"],
 )
 def test_files_that_are_no_dxf_are_refused(tmp_path, content, says):
     path = tmp_path / "rail.dxf"

@@ -170,7 +170,7 @@ def test_layers_by_path(read):
     inner = sketch.layer("RAIL", parent=sketch.layer("SITE"))
     sketch.add(line((0, 0), (5000, 0))).add(line((0, 0), (0, 8000)), layer=inner)
     assert length(read(sketch, layer="site::rail")) == pytest.approx(8000)
-    assert "'RAIL' names RAIL, SITE::RAIL" in refusal(read, sketch)
+    assert "'RAIL' names 'RAIL', 'SITE::RAIL'" in refusal(read, sketch)
 
 
 def test_curves_off_their_plane_are_refused(read):
@@ -207,24 +207,28 @@ def hidden_child():
     return sketch
 
 
+def test_units_of_the_project_win_with_a_note_that_names_both(tmp_path):
+    assert Sketch("Meters").add(line((0, 0), (9000, 0))).model.Write(str(tmp_path / "rail.3dm"), 7)
+    table = {"kind": "rhino", "file": "rail.3dm", "layer": "RAIL", "units": "mm"}
+    curve, notes = build_curve(SETTINGS.validate_python(table), tmp_path, None, "rail.curve")
+    assert length(curve) == 9000
+    assert [note.code for note in notes] == ["W-DRAWN-UNITS"]
+    assert "read in mm as asked, although the file says m" in notes[0].text
+
+
 REFUSALS = {
     "no layer": (lambda: Sketch().add(line((0, 0), (9, 0))), {"layer": "ARCH"}, ["E-RHINO-LAYER", "'ARCH'", "RAIL"]),
     "nothing on it": (Sketch, {}, ["E-RHINO-LAYER", "nothing on layer 'RAIL'"]),
     "no name": (
         lambda: Sketch().add(line((0, 0), (9, 0)), name="rail"),
         {"name": "arch"},
-        ["E-RHINO-NAME rail.curve.name: nothing is called 'arch'", "one of rail"],
+        ["E-RHINO-NAME rail.curve.name: nothing is called 'arch'", "one of 'rail'"],
     ),
     "hidden layer": (hidden_child, {"layer": "INNER"}, ["E-RHINO-LAYER", "layer 'OUTER' is off"]),
     "hidden object": (lambda: Sketch().add(line((0, 0), (9, 0)), Visible=False), {}, ["E-RHINO-OBJECT", "is hidden"]),
     "no curve": (lambda: Sketch().add(rhino3dm.Point(at(1, 2))), {}, ["E-RHINO-OBJECT rail.curve, Point ", "ArcCurve"]),
     "no units": (lambda: Sketch("None").add(line((0, 0), (9, 0))), {}, ["E-RHINO-UNITS rail.curve.units", "Set units"]),
-    "other units": (
-        lambda: Sketch("Meters").add(line((0, 0), (9, 0))),
-        {"units": "mm"},
-        ["mm (1 mm), but the model says Meters (1000 mm)"],
-    ),
-    "strange units": (lambda: Sketch("Parsecs").add(line((0, 0), (9, 0))), {}, ["model units Parsecs", "Millimeters"]),
+    "strange units": (lambda: Sketch("Parsecs").add(line((0, 0), (9, 0))), {}, ["model units Parsecs", "Set units"]),
     "world without plane": (lambda: Sketch().add(line((0, 0), (9, 0))), {"drawn": "world"}, ["E-DRAWN-PLANE"]),
     "remote": (lambda: Sketch("Kilometers").add(line((0, 0), (9e9, 0))), {}, ["E-CURVE-NUMBER", "finite"]),
 }  # fmt: skip

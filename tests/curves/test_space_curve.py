@@ -110,8 +110,11 @@ def test_lines_and_an_arc_in_any_order_and_plane(tmp_path):
     curve = read(drawn(tmp_path / "joined.dxf", draw))
     assert len(curve.pieces) == 3
     assert length(curve) == pytest.approx(8000 + 2500 * np.pi)
-    with pytest.raises(Refused, match=r"E-DRAWN-CURVES.*nearest ends are 0.01 mm"):
-        read(drawn(tmp_path / "parted.dxf", lambda space, on: draw(space, on, 1e-5)))
+    with pytest.raises(Refused, match=r"E-DRAWN-CURVES.*nearest ends are 0.02 mm"):
+        read(drawn(tmp_path / "parted.dxf", lambda space, on: draw(space, on, 2e-5)))
+    near = read(drawn(tmp_path / "near.dxf", lambda space, on: draw(space, on, 5e-6)))
+    assert len(near.pieces) == 3
+    assert length(near) == pytest.approx(length(curve), abs=0.01)
 
 
 def test_a_closed_spline_through_fit_points(tmp_path):

@@ -33,6 +33,10 @@ class SpatialPiece:
         """Give the points at t (n,) as (n, 3), mm."""
         return np.hstack([self.plan.point(t), self.side.point(t)[:, 1:]])
 
+    def derivative(self, t: Floats) -> Floats:
+        """Give dP/dt at t (n,) as (n, 3), mm."""
+        return np.hstack([self.plan.derivative(t), self.side.derivative(t)[:, 1:]])
+
     def splits(self) -> Floats:
         """Give none: a curve in space is measured, and not asked how it turns."""
         return np.empty(0)
@@ -40,8 +44,7 @@ class SpatialPiece:
     def least_speed(self) -> float:
         """Give the least |dP/dt|, mm, of 65 places."""
         t = np.linspace(0.0, 1.0, 65)
-        speed = np.hstack([self.plan.derivative(t), self.side.derivative(t)[:, 1:]])
-        return float(np.linalg.norm(speed, axis=1).min())
+        return float(np.linalg.norm(self.derivative(t), axis=1).min())
 
     def reversed(self) -> "SpatialPiece":
         """Give the same points in the opposite direction."""

@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from isomould.arrays import Floats
-from isomould.curves.chains import Stroke, chained
-from isomould.curves.drawn import DrawnSettings, DxfSettings, RhinoSettings, trace_drawn
+from isomould.curves.chains import Stroke
+from isomould.curves.drawn import DrawnSettings, DxfSettings, RhinoSettings, the_one_chain, trace_drawn
+from isomould.curves.joining import join_tolerance
+from isomould.curves.origins import seen_from
 from isomould.curves.pieces import Line
 from isomould.curves.points import are_spatial
 from isomould.curves.settings import (
@@ -67,12 +69,14 @@ def _lines(points: Floats, closed: bool) -> list[Shape]:
 def _drawn(settings: DrawnSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
     if settings.drawn != "world":
         _refuse_planar(f"{field}.drawn", f"a curve drawn {settings.drawn}")
-    traced, remarks = trace_drawn(settings, base_dir, field)
-    refuse_wild(traced, field)
+    drawing = trace_drawn(settings, base_dir, field)
+    refuse_wild(drawing.traced, field)
+    traced = seen_from(drawing.traced, np.zeros(3))
     strokes = [Stroke(one.name, _pieces(one)) for one in traced]
-    pieces, closed = chained([stroke for stroke in strokes if stroke.pieces], field)
-    curve, notes = join_in_space(pieces, closed, field)
-    return curve, (*remarks, *notes)
+    join = join_tolerance(settings.join, drawing.printed)
+    chain, moved = the_one_chain([stroke for stroke in strokes if stroke.pieces], join, field)
+    curve, notes = join_in_space(chain.pieces, chain.closed, field)
+    return curve, (*drawing.notes, *moved, *notes)
 
 
 def _pieces(one: Traced) -> tuple[SpatialPiece, ...]:

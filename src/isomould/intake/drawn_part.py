@@ -14,9 +14,12 @@ import numpy as np
 import shapely
 
 from isomould.arrays import Floats, round_um
-from isomould.curves.chains import chained
-from isomould.curves.curve import JOINT_GAP
-from isomould.curves.dxf import trace_layers
+from isomould.curves.chains import Stroke
+from isomould.curves.drawn import the_one_chain
+from isomould.curves.dxf import open_dxf_source
+from isomould.curves.joining import JOIN
+from isomould.curves.layer_names import layer_key
+from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.pieces import Ellipse, Line, Piece
 from isomould.curves.spatial import Traced, laid_flat
 from isomould.documents.drawing import Circle, Polyline, chords
@@ -63,7 +66,7 @@ def read_drawn_part(path: Path, layer: str, units: LengthUnit | None) -> DrawnPa
         E-DXF-… and E-DRAWN-… as any drawing; E-PART-OPEN, E-PART-CURVE, E-PART-HOLE.
     """
     field = str(path)
-    (outer, inner, drilled), others = trace_layers(path, (layer, _INNER, _DRILLED), units, field)
+    (outer, inner, drilled), others = _traced_layers(path, (layer, _INNER, _DRILLED), units, field)
     pieces = _outline_pieces(outer, field)
     outline = _outside(pieces, field)
     holes = (*_contours(inner, field), *(_drilled(one, field) for one in drilled))
@@ -72,15 +75,32 @@ def read_drawn_part(path: Path, layer: str, units: LengthUnit | None) -> DrawnPa
     return DrawnPart(outline, holes, any(isinstance(piece, Ellipse) for piece in pieces), ignored)
 
 
+def _traced_layers(
+    path: Path, layers: Sequence[str], units: LengthUnit | None, field: str
+) -> tuple[list[list[Traced]], list[str]]:
+    """Give what is drawn on each of some layers, from one origin, and the names of all others that hold anything."""
+    source = open_dxf_source(path, units, field)
+    drawn = [source.trace(layer).traced if k == 0 or source.holds(layer) else [] for k, layer in enumerate(layers)]
+    origin = origin_of([one for traced in drawn for one in traced])
+    known = {layer_key(layer) for layer in layers}
+    others = [content.name for content in source.layers() if content.kinds and layer_key(content.name) not in known]
+    return [seen_from(traced, origin) for traced in drawn], sorted(others)
+
+
+def _chained(strokes: list[Stroke[Piece]], field: str) -> tuple[tuple[Piece, ...], bool]:
+    chain, _ = the_one_chain(strokes, JOIN, field)
+    return chain.pieces, chain.closed
+
+
 def _outline_pieces(traced: list[Traced], field: str) -> tuple[Piece, ...]:
     """Give the pieces of the outline in order, counter-clockwise."""
-    strokes, _ = laid_flat(traced, None, field)
-    pieces, closed = chained(strokes, field)
+    strokes, _ = laid_flat(traced, None, field, JOIN)
+    pieces, closed = _chained(strokes, field)
     if not closed:
         apart = float(np.hypot(*(_start(pieces[0]) - _end(pieces[-1]))))
         names = ", ".join(stroke.name for stroke in strokes[:4])
         found = f"{names}: the outline is open, its ends are {apart:.6g} mm apart"
-        _refuse("OPEN", field, found, f"a closed outline, within {JOINT_GAP:g} mm", "Close it in CAD and save again.")
+        _refuse("OPEN", field, found, f"a closed outline, within {JOIN:g} mm", "Close it in CAD and save again.")
     return pieces if _turning(pieces) > 0 else tuple(piece.reversed() for piece in pieces[::-1])
 
 
@@ -144,10 +164,10 @@ def _is_round(piece: Ellipse) -> bool:
 
 def _contours(traced: list[Traced], field: str) -> list[Polyline]:
     """Give the inner contours: every entity of CUT_INNER has to be a closed one."""
-    strokes = laid_flat(traced, None, field)[0] if traced else []
+    strokes = laid_flat(traced, None, field, JOIN)[0] if traced else []
     found = list[Polyline]()
     for stroke in strokes:
-        pieces, closed = chained([stroke], field)
+        pieces, closed = _chained([stroke], field)
         if not closed:
             _refuse("HOLE", field, f"{stroke.name} on {_INNER} is open", "closed contours", "Close it in CAD.")
         points = round_um(np.array([_start(piece) for piece in _halved(pieces)]))
@@ -173,7 +193,7 @@ def _bulge(piece: Piece, field: str) -> float:
 
 
 def _drilled(traced: Traced, field: str) -> Circle:
-    (piece,) = laid_flat([traced], None, field)[0][0].pieces[:1]
+    (piece,) = laid_flat([traced], None, field, JOIN)[0][0].pieces[:1]
     if not isinstance(piece, Ellipse) or abs(_bulge_angle(_circular(piece, field))) < 2 * math.pi - 1e-9:
         _refuse("HOLE", field, f"{traced.name} on {_DRILLED} is no circle", "circles", "Move it to CUT_INNER.")
     x, y = round_um(np.array(piece.centre)).tolist()
