@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 import isomould
+from isomould.curves.construction import build_curve
 from isomould.curves.plane import build_plane
-from isomould.curves.settings import CircleSettings, SineSettings, build_curve
+from isomould.curves.settings import CircleSettings, SineSettings
 from isomould.form.division import Request, divide_curve
 from isomould.form.orientation import orient_rail, place_generatrix
 from isomould.form.profile import make_profile

@@ -8,8 +8,9 @@ The paper's times are for a script in Rhinoceros on a computer of 2.4 GHz; ours 
 import time
 from pathlib import Path
 
+from isomould.curves.construction import build_curve
 from isomould.curves.curve import PlanarCurve
-from isomould.curves.settings import BsplineSettings, ParabolaSettings, build_curve
+from isomould.curves.settings import BsplineSettings, ParabolaSettings
 from isomould.curves.turning import arcs, spans
 from isomould.form.division import Request, divide_curve
 from isomould.form.settings import FormLimits, RailDivide, Treatment

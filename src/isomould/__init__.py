@@ -2,7 +2,7 @@
 
 from isomould.api import Checked, NestFiles, build, check, compare, draw, explore, frames, nest, new, schedule, verify
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
-from isomould.pipeline import Built, Run
+from isomould.running import Built, Run
 
 __all__ = [
     "Built",

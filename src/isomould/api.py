@@ -1,47 +1,39 @@
-"""The verbs of the command line as functions of the same names."""
+"""The verbs of the command line as functions of the same names.
 
-from collections.abc import Callable, Mapping, Sequence
+Every verb imports its rooms when it is called: a program that asks for one waits for that one alone.
+"""
+
+from __future__ import annotations
+
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-
-from isomould.comparison import Compared, compare_families, families_table
-from isomould.delivery.nested import Targets, check_targets, publish_bars, publish_nest, refuse_overwriting
-from isomould.delivery.pictures import View, design_picture
-from isomould.design import Design, make_design, requests_of
-from isomould.documents.overview import Fact, kit_facts
-from isomould.documents.picture import Picture
-from isomould.documents.table import Table
 from isomould.errors import Note, Refused
-from isomould.family import kit_table, make_designs
-from isomould.form.survey import Division, survey
-from isomould.intake.member_list import lists_members, read_member_list
-from isomould.intake.member_rows import MemberList
-from isomould.intake.read import Asked, read_part_list
-from isomould.intake.stock import read_stock
-from isomould.nesting.bars import nest_bars
-from isomould.nesting.layout import BarLayout, Layout
-from isomould.nesting.nest import nest_sheets
-from isomould.nesting.search import Effort, Progress, Search
-from isomould.nesting.settings import StockSettings
-from isomould.nesting.stop import Stop
-from isomould.pipeline import Built, Run, build_folder, schedule_folder
-from isomould.project.load import LoadedProject, load_project, read_tables
-from isomould.project.schema import MAIN, Project
-from isomould.rehearsal import rehearse_file
-from isomould.repetition import is_priced, make_pricing, price_families
-from isomould.study import Study, make_study
-from isomould.templates import copy_template
-from isomould.units import LengthUnit
-from isomould.verify import Certificate, verify_folder, verify_nest
-from isomould.workers import workers
-from isomould.writers.csv import csv_text
-from isomould.writers.disk import replace_file
-from isomould.writers.names import check_file_name, safe_name
-from isomould.writers.svg import svg_text
-from isomould.writers.xlsx import Words, workbook_bytes
+from isomould.verify import Certificate  # loaded here, before its name is given to the verb
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    import pandas as pd
+
+    from isomould.comparison import Compared
+    from isomould.delivery.nested import Targets
+    from isomould.delivery.pictures import View
+    from isomould.design import Design
+    from isomould.documents.overview import Fact
+    from isomould.documents.picture import Picture
+    from isomould.documents.table import Table
+    from isomould.form.survey import Division
+    from isomould.nesting.layout import BarLayout, Layout
+    from isomould.nesting.member_rows import MemberList
+    from isomould.nesting.search import Effort, Progress
+    from isomould.nesting.stop import Stop
+    from isomould.project.load import LoadedProject
+    from isomould.project.schema import Project
+    from isomould.running import Built, Run
+    from isomould.study import Study
+    from isomould.units import LengthUnit
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +60,9 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
     Refused
         If the template is unknown, a file is in the way, or some system cannot hold a file of that name.
     """
+    from isomould.templates import copy_template
+    from isomould.writers.names import check_file_name
+
     path = Path(name)
     if not path.name:
         raise Refused("E-NEW", "NAME", repr(name), "a file name", "Name the project: isomould new roof.")
@@ -77,7 +72,7 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
 
 
 def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
-    """Compute a design and its counts, and hold it to all that `build` asks before it searches; no files are written.
+    """Compute a design and its counts; no files are written.
 
     Parameters
     ----------
@@ -86,7 +81,19 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     """
-    loaded, designs = rehearse_file(Path(project), changes)
+    from isomould.project.load import load_project
+
+    return _check(load_project(Path(project), changes))
+
+
+def _check(loaded: LoadedProject) -> Checked:
+    from isomould.design import requests_of
+    from isomould.documents.overview import kit_facts
+    from isomould.family import kit_table, make_designs
+    from isomould.form.survey import survey
+    from isomould.project.schema import MAIN
+
+    designs = make_designs(loaded)
     design = designs[MAIN]
     curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
     divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
@@ -104,6 +111,9 @@ def explore(project: str | Path, changes: Sequence[str] = ()) -> Study:
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     """
+    from isomould.project.load import read_tables
+    from isomould.study import make_study
+
     path = Path(project)
     return make_study(read_tables(path, changes), path.resolve().parent)
 
@@ -129,8 +139,15 @@ def build(
     Refused, CertificateFailed, OutputFault
         With nothing published.
     """
+    from isomould.project.load import load_project
+    from isomould.running import Run
+    from isomould.writers.names import safe_name
+
     loaded = load_project(Path(project), changes)
     target = Path(out) if out is not None else Path("outputs") / safe_name(loaded.project.project.name)
+
+    from isomould.pipeline import build_folder
+
     return build_folder(loaded, target, run or Run())
 
 
@@ -141,9 +158,17 @@ def schedule(
 
     Parameters and errors are those of `build`.
     """
+    from isomould.project.load import load_project
+    from isomould.running import Run
+    from isomould.writers.names import safe_name
+
     loaded = load_project(Path(project), changes)
     slug = f"{safe_name(loaded.project.project.name)}-schedules"
-    return schedule_folder(loaded, Path(out) if out is not None else Path("outputs") / slug, run or Run())
+    target = Path(out) if out is not None else Path("outputs") / slug
+
+    from isomould.pipeline import schedule_folder
+
+    return schedule_folder(loaded, target, run or Run())
 
 
 def verify(
@@ -164,6 +189,10 @@ def verify(
     sheets, plan, saw_list
         Of a layout file: the folder of its sheets, its cutting plan, its saw list.
     """
+    from isomould.verify.folder import verify_folder
+    from isomould.verify.nested import verify_nest
+    from isomould.workers import workers
+
     path = Path(folder)
     if path.is_dir() and (sheets or plan or saw_list):
         way_out = "Give the layout file instead of the folder."
@@ -252,6 +281,15 @@ def nest(
     CertificateFailed
         If what was written does not show the layout; nothing is published.
     """
+    from isomould.delivery.nested import Targets, check_targets, publish_nest, refuse_overwriting
+    from isomould.intake.member_list import lists_members, read_member_list
+    from isomould.intake.read import Asked, read_part_list
+    from isomould.intake.stock import read_stock
+    from isomould.nesting.nest import nest_sheets
+    from isomould.nesting.search import Search
+    from isomould.nesting.stop import Stop
+    from isomould.workers import workers
+
     stop, files = stop or Stop(), files or NestFiles()
     targets = Targets(Path(out), files.sheets, files.plan, files.saw_list, files.overwrite)
     stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
@@ -283,6 +321,9 @@ def _refuse_time_limit(stop: Stop) -> None:
 def _nest_members(
     listed: tuple[MemberList, tuple[Note, ...]], effort: Effort, targets: Targets, remark: Callable[[Note], None]
 ) -> BarLayout:
+    from isomould.delivery.nested import publish_bars
+    from isomould.nesting.bars import nest_bars
+
     given, notes = listed
     for note in notes:
         remark(note)
@@ -307,7 +348,14 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
     out
         A file to write, `.csv` or `.xlsx`; it is written whole or not at all.
     """
+    from isomould.project.load import load_project
+
     loaded = load_project(Path(project), changes)
+
+    from isomould.comparison import compare_families
+    from isomould.design import make_design
+    from isomould.writers.disk import replace_file
+
     compared = compare_families(make_design(loaded.project, loaded.folder))
     if out is not None:
         replace_file(Path(out), _families_bytes(Path(out), compared, loaded))
@@ -316,6 +364,9 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
 
 def _priced(compared: tuple[Compared, ...], project: Project) -> tuple[Table, ...]:
     """Give rates and the price of repetition, if the project has rates."""
+    from isomould.nesting.settings import StockSettings
+    from isomould.repetition import is_priced, make_pricing, price_families
+
     if not is_priced(project):
         return ()
     pricing = replace(make_pricing(project, project.stock or StockSettings()), repetition=True)
@@ -324,6 +375,10 @@ def _priced(compared: tuple[Compared, ...], project: Project) -> tuple[Table, ..
 
 def _families_bytes(out: Path, compared: tuple[Compared, ...], loaded: LoadedProject) -> bytes:
     """Write a comparison in the format that the file's name asks for."""
+    from isomould.comparison import families_table
+    from isomould.writers.csv import csv_text
+    from isomould.writers.xlsx import Words, workbook_bytes
+
     table = families_table(compared)
     match out.suffix.lower():
         case ".csv":
@@ -342,7 +397,7 @@ def draw(
     out: str | Path,
     view: View = "axonometry",
     changes: Sequence[str] = (),
-    shape: str = MAIN,
+    shape: str = "main",
 ) -> Picture:
     """Draw a design as SVG.
 
@@ -360,15 +415,28 @@ def draw(
     shape
         Which of the project's shapes, by the name of its folder.
     """
+    from isomould.project.load import load_project
+
     if Path(out).suffix.lower() != ".svg":
         raise Refused("E-DRAW-FILE", "--out", str(out), "a file that ends in .svg", "Write --out picture.svg.")
-    designs = make_designs(load_project(Path(project), changes))
+    picture = _picture(load_project(Path(project), changes), view, shape)
+
+    from isomould.writers.disk import replace_file
+    from isomould.writers.svg import svg_text
+
+    replace_file(Path(out), svg_text(picture).encode())
+    return picture
+
+
+def _picture(loaded: LoadedProject, view: View, shape: str) -> Picture:
+    from isomould.delivery.pictures import design_picture
+    from isomould.family import make_designs
+
+    designs = make_designs(loaded)
     if shape not in designs:
         limit = f"one of {', '.join(designs)}"
         raise Refused("E-DRAW-SHAPE", "--shape", repr(shape), limit, "Name a shape of the project.")
-    picture = design_picture(designs[shape], view)
-    replace_file(Path(out), svg_text(picture).encode())
-    return picture
+    return design_picture(designs[shape], view)
 
 
 def frames(built: Built) -> dict[str, pd.DataFrame]:

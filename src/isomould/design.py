@@ -6,9 +6,9 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
+from isomould.curves.construction import build_curve
 from isomould.curves.curve import PlanarCurve
 from isomould.curves.plane import build_plane
-from isomould.curves.settings import build_curve
 from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Attempt, Gathering, Note, Refused
 from isomould.form.assemble import (

@@ -1,11 +1,10 @@
 """The stages in the order of the data: project, design, solids, nests, tables, files, proof."""
 
 import importlib.metadata
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
-from isomould.curves.drawn import DxfSettings, RhinoSettings
+from isomould.curves.drawn_settings import DxfSettings, RhinoSettings
 from isomould.cutting import nest_kit
 from isomould.delivery.folder import write_delivery
 from isomould.delivery.goods import Delivery
@@ -13,11 +12,11 @@ from isomould.delivery.model import write_record
 from isomould.delivery.report import write_page
 from isomould.delivery.schedules import write_schedules
 from isomould.design import Design, kit_settings
+from isomould.documents.info import Logo
 from isomould.documents.table import Table
-from isomould.documents.title_block import Logo
 from isomould.errors import CertificateFailed, Refused
 from isomould.family import kit_table
-from isomould.nesting.search import Effort, Search
+from isomould.nesting.search import Search
 from isomould.parts.building import make_shapes
 from isomould.parts.clash import refuse_clashes
 from isomould.parts.solid import make_solids
@@ -25,14 +24,12 @@ from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN
 from isomould.rehearsal import rehearse
 from isomould.revision import keep_design_marks, read_former
+from isomould.running import Built, Run
 from isomould.verify import Certificate, verify_folder, verify_page
 from isomould.workers import Spread, workers
 from isomould.writers.disk import write_bytes
 from isomould.writers.folder import candidate
 from isomould.writers.manifest import MANIFEST, Scope, listed_files, write_manifest
-
-Report = Callable[[str], None]
-"""Told the name of every stage as it begins."""
 
 CERTIFICATE, PAGE = "certificate.json", "report.html"
 
@@ -50,30 +47,6 @@ _LIBRARIES = (
     "plotly",
     "pypdf",
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Built:
-    """A delivery that was written, proved and published."""
-
-    folder: Path
-    design: Design
-    tables: tuple[Table, ...]
-    certificate: Certificate
-
-
-@dataclass(frozen=True)
-class Run:
-    """How a build is run: `jobs` processes (None: one per core) change the time, never the result.
-
-    `previous` is a former delivery of the project: unchanged classes keep its marks.
-    """
-
-    overwrite: bool = False
-    effort: Effort = "normal"
-    jobs: int | None = None
-    report: Report = lambda stage: None
-    previous: Path | None = None
 
 
 def build_folder(loaded: LoadedProject, target: Path, run: Run) -> Built:

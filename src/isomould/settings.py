@@ -12,7 +12,7 @@ _LONGEST = 120
 class Settings(BaseModel):
     """A table of the project file. Defined beside the stage that reads it; composed by `isomould.project`."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
     def conflicts(self) -> Iterator[str]:
         """Say which values of the table do not go together, each as "found; limit" in a line of its own."""

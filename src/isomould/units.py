@@ -9,6 +9,9 @@ from pydantic import AfterValidator, BeforeValidator, Strict
 
 LengthUnit = Literal["mm", "cm", "m", "in", "ft"]
 
+MassUnit = Literal["kg/m", "kg/m2"]
+"""Of profiles and plates in machine files."""
+
 MM_PER_UNIT: dict[str, float] = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 
 LARGEST = 1e12

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+from isomould.curves.construction import build_curve
 from isomould.curves.curve import ends
 from isomould.curves.plane import PlaneSettings, build_plane, project
-from isomould.curves.settings import CurveSettings, build_curve
+from isomould.curves.settings import CurveSettings
 from isomould.curves.turning import arcs, spans
 from isomould.errors import Refused
 

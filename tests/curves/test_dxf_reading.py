@@ -6,11 +6,12 @@ from ezdxf.filemanagement import new
 from ezdxf.math import Matrix44
 from pydantic import TypeAdapter
 
+from isomould.curves.construction import build_curve
 from isomould.curves.curve import join_pieces
 from isomould.curves.drawn import DxfSettings, read_drawn
 from isomould.curves.lengths import length, parameter_at
 from isomould.curves.plane import PlaneSettings, build_plane
-from isomould.curves.settings import CurveSettings, build_curve
+from isomould.curves.settings import CurveSettings
 from isomould.curves.turning import arcs, spans
 from isomould.errors import OutputFault, Refused
 

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+from isomould.curves.construction import build_curve
 from isomould.curves.lengths import length
 from isomould.curves.plane import build_plane
-from isomould.curves.settings import CurveSettings, build_curve
+from isomould.curves.settings import CurveSettings
 from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Refused
 

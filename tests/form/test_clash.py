@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
+from isomould.curves.construction import build_curve
 from isomould.curves.plane import build_plane
-from isomould.curves.settings import build_curve
 from isomould.design import requests_of
 from isomould.errors import Refused
 from isomould.form.assemble import RailInPlane, make_form

@@ -8,7 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from isomould.curves.settings import ArcSettings, build_curve
+from isomould.curves.construction import build_curve
+from isomould.curves.settings import ArcSettings
 from isomould.errors import Refused
 from isomould.form.division import Request, divide_curve
 from isomould.form.frame import spatial_rail

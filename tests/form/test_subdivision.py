@@ -5,7 +5,8 @@ import pytest
 from scipy.optimize import minimize
 
 import isomould
-from isomould.curves.settings import BsplineSettings, PolylineSettings, build_curve
+from isomould.curves.construction import build_curve
+from isomould.curves.settings import BsplineSettings, PolylineSettings
 from isomould.curves.turning import arcs, spans
 from isomould.errors import Refused
 from isomould.form.division import Request, divide_curve

@@ -1,13 +1,18 @@
 """The command `draw`: a picture of the design."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 import isomould
-from isomould.api import View
 from isomould.cli.options import CHANGES, PROJECT
+
+if TYPE_CHECKING:
+    from isomould.delivery.pictures import View
 
 _VIEW = click.Choice(["axonometry", "plan", "elevation", "developed", "curvature"])
 

@@ -15,16 +15,16 @@ from isomould.cli.console import INTERRUPTED, catch_signals, warn
 from isomould.errors import IsomouldError, Refused
 
 _COMMANDS = {
-    "new": "new_command",
-    "check": "check_command",
-    "build": "build_command",
-    "verify": "verify_command",
-    "schedule": "build_command",
-    "compare": "compare_command",
-    "nest": "nest_command",
-    "draw": "draw_command",
+    "new": ("new_command", "Start a project file NAME.toml from a template."),
+    "check": ("check_command", "Compute the design and print its counts; no files are written."),
+    "build": ("build_command", "Build a project: cut sheets, schedules, solids, models, and their certificate."),
+    "verify": ("verify_command", "Prove a delivered folder, or the layout file of a nest, again from its files."),
+    "schedule": ("build_command", "Write the workbook and the tables of a project."),
+    "compare": ("compare_command", "Compare mesh families on the project's surface."),
+    "nest": ("nest_command", "Nest parts of any origin on sheets, members on bars."),
+    "draw": ("draw_command", "Draw the design; no other files are written."),
 }
-"""The module of each command, in the order of the help page."""
+"""The module of each command and what it does, in the order of the help page, which imports none of them."""
 
 
 class _Program(click.Group):
@@ -36,8 +36,12 @@ class _Program(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in _COMMANDS:
             return None
-        module = import_module(f"isomould.cli.{_COMMANDS[cmd_name]}")
+        module = import_module(f"isomould.cli.{_COMMANDS[cmd_name][0]}")
         return getattr(module, cmd_name)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, brief) for name, (_, brief) in _COMMANDS.items()])
 
 
 @click.group(cls=_Program, context_settings={"help_option_names": ["-h", "--help"]})

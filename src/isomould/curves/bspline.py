@@ -11,13 +11,12 @@ from scipy.interpolate import CubicSpline
 from isomould.arrays import Bools, Floats, Ints
 from isomould.curves.bezier import Bezier
 from isomould.curves.pieces import Line, Piece, tuples
+from isomould.curves.settings import SplineEnds
 from isomould.errors import Refused
 
 LARGEST_DEGREE = 15
 _EMPTY_SPAN = 1e-12
 """Knots nearer than this share of the whole range are one knot."""
-
-SplineEnds = Literal["natural", "not-a-knot"]
 
 
 class Nurbs(NamedTuple):

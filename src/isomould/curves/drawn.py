@@ -1,15 +1,15 @@
-"""Curves drawn in CAD: the tables that name them, and the way from what is drawn to one curve."""
+"""Curves drawn in CAD: the way from what is drawn to one curve."""
 
 from pathlib import Path
-from typing import Literal, NoReturn, Self
+from typing import NoReturn
 
 import numpy as np
-from pydantic import model_validator
 from scipy.spatial import KDTree
 
 from isomould.arrays import Floats
 from isomould.curves.chains import Chain, P, Stroke, tips_of
 from isomould.curves.doubles import overlapping, without_doubles
+from isomould.curves.drawn_settings import DrawnSettings, DxfSettings
 from isomould.curves.dxf import open_dxf_source
 from isomould.curves.joining import join_tolerance, joined, place_text
 from isomould.curves.layers import LayerDrawing
@@ -19,44 +19,6 @@ from isomould.curves.rhino import open_rhino_source
 from isomould.curves.shapes import Draft
 from isomould.curves.spatial import laid_flat
 from isomould.errors import Note, Refused
-from isomould.settings import Settings
-from isomould.units import LengthUnit, PositiveLength
-
-
-class DxfSettings(Settings):
-    """The one curve on a layer of a DXF file.
-
-    "flat": the drawing's x, y are the curve's own; "world": the drawing is the building, in space.
-    """
-
-    kind: Literal["dxf"]
-    file: str
-    layer: str
-    units: LengthUnit | None = None
-    join: PositiveLength | None = None
-    drawn: Literal["flat", "world"] = "flat"
-
-
-class RhinoSettings(Settings):
-    """The one curve on a layer, or of a name, in a Rhino model (.3dm); `drawn` as for DXF files."""
-
-    kind: Literal["rhino"]
-    file: str
-    layer: str | None = None
-    name: str | None = None
-    units: LengthUnit | None = None
-    join: PositiveLength | None = None
-    drawn: Literal["flat", "world"] = "flat"
-
-    @model_validator(mode="after")
-    def _named(self) -> Self:
-        if self.layer is None and self.name is None:
-            message = "a rhino curve needs layer or name: which curve of the model it is"
-            raise ValueError(message)
-        return self
-
-
-DrawnSettings = DxfSettings | RhinoSettings
 
 
 def read_drawn(settings: DrawnSettings, base_dir: Path, plane: Plane | None, field: str) -> Draft:

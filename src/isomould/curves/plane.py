@@ -1,14 +1,12 @@
 """The plane that a curve lies in."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from isomould.arrays import Floats, read_only
+from isomould.curves.plane_settings import PlaneSettings, PlaneTable
 from isomould.errors import Refused
-from isomould.settings import Settings
-from isomould.units import Length, Number
 
 SQUARE = 1e-9
 """Largest cosine between axes that were meant to be perpendicular."""
@@ -26,17 +24,6 @@ class Plane:
     """(3,) unit vector."""
     y_axis: Floats
     """(3,) unit vector."""
-
-
-class PlaneTable(Settings):
-    """A plane by its origin (lengths) and two perpendicular directions of any length."""
-
-    origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    x_axis: tuple[Number, Number, Number]
-    y_axis: tuple[Number, Number, Number]
-
-
-PlaneSettings = Literal["xy", "xz", "yz"] | PlaneTable
 
 
 def build_plane(settings: PlaneSettings, field: str = "plane") -> Plane:

@@ -6,7 +6,9 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves.chains import Stroke
-from isomould.curves.drawn import DrawnSettings, DxfSettings, RhinoSettings, the_one_chain, trace_drawn
+from isomould.curves.construction import bspline_segments, points_of, spline_segments
+from isomould.curves.drawn import the_one_chain, trace_drawn
+from isomould.curves.drawn_settings import DrawnSettings, DxfSettings, RhinoSettings
 from isomould.curves.joining import join_tolerance
 from isomould.curves.origins import seen_from
 from isomould.curves.pieces import Line
@@ -16,9 +18,6 @@ from isomould.curves.settings import (
     CurveSettings,
     PolylineSettings,
     SplineSettings,
-    bspline_segments,
-    points_of,
-    spline_segments,
 )
 from isomould.curves.shapes import distinct
 from isomould.curves.space_curve import SpatialCurve, SpatialPiece, join_in_space, piece_in_space

@@ -8,6 +8,7 @@ from isomould.comparison import Compared, compare_families, families_table
 from isomould.cutting import Cutting
 from isomould.design import Design, kit_settings
 from isomould.documents.costs import Cost, Pricing, make_cost
+from isomould.documents.info import Logo
 from isomould.documents.node_tables import fitting_table, hardware_table, limit_table, node_fitting_table
 from isomould.documents.overview import kit_facts, layout_facts
 from isomould.documents.packing import packing_tables
@@ -17,7 +18,6 @@ from isomould.documents.setting_out import SettingOut, set_out, setting_out_tabl
 from isomould.documents.stock_tables import bar_table, sheet_table
 from isomould.documents.strips import strip_table
 from isomould.documents.table import Table, without_files
-from isomould.documents.title_block import Logo
 from isomould.documents.totals import make_summary
 from isomould.parts.details.fittings import Fitting, make_fittings
 from isomould.parts.plates import Shape

@@ -9,10 +9,11 @@ from isomould.arrays import Floats, round_um
 from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing, Polyline
 from isomould.documents.holes import front_holes
-from isomould.documents.nc_parts import Blank, MassUnit, NcPart, nc_part, plate_profile
+from isomould.documents.nc_parts import Blank, NcPart, nc_part, plate_profile
 from isomould.parts.details.fittings import Fitting
 from isomould.parts.features import Hole
 from isomould.parts.supports import Base
+from isomould.units import MassUnit
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,7 @@
 """Who and what a delivery is for: the `[project]` table."""
 
 import datetime
+from dataclasses import dataclass
 from typing import Annotated
 
 from pydantic import BeforeValidator, Field
@@ -41,3 +42,12 @@ class ProjectInfo(Settings):
     phase: Text = ""
     datum: DatumSettings = Field(default_factory=DatumSettings)
     date: Annotated[datetime.date | None, BeforeValidator(_drawn_up)] = None
+
+
+@dataclass(frozen=True)
+class Logo:
+    """A picture (PNG) and its size in pixels."""
+
+    content: bytes
+    width: int
+    height: int

@@ -5,10 +5,11 @@ import numpy as np
 from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing
 from isomould.documents.holes import front_holes
-from isomould.documents.nc_parts import Blank, MassUnit, NcPart, NcProfile, nc_part, plate_profile, tube_profile
+from isomould.documents.nc_parts import Blank, NcPart, NcProfile, nc_part, plate_profile, tube_profile
 from isomould.parts.catalogue import AnySection, PlateSection
 from isomould.parts.members import MemberParts, MemberShape
 from isomould.parts.settings import MemberSettings
+from isomould.units import MassUnit
 
 
 def member_drawing(mark: str, shape: MemberShape) -> CutDrawing:

@@ -11,13 +11,13 @@ from isomould.documents.engraving import Stamp, free_area, place_at_start, place
 from isomould.documents.holes import front_holes
 from isomould.parts.catalogue import RhsSection
 from isomould.parts.features import Face, Hole
+from isomould.units import MassUnit
 
 Code = Literal["B", "M"]
 """Plates and flat bars; hollow sections."""
 
 View = Literal["v", "h", "o", "u"]
 
-MassUnit = Literal["kg/m", "kg/m2"]
 """What line 15 of the header holds: exporters write kg/m for bars, kg/m² for plates."""
 
 _VIEWS: dict[Face, View] = {"front": "v", "back": "h", "top": "o", "bottom": "u"}

@@ -1,18 +1,7 @@
 """The title block: what every document says about its project."""
 
-from dataclasses import dataclass
-
 from isomould.documents.info import DatumSettings, ProjectInfo
 from isomould.documents.numbers import format_number
-
-
-@dataclass(frozen=True)
-class Logo:
-    """A picture (PNG) and its size in pixels."""
-
-    content: bytes
-    width: int
-    height: int
 
 
 def heading(info: ProjectInfo) -> str:

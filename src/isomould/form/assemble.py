@@ -17,8 +17,8 @@ from isomould.form.frame import refuse_twist, spatial_rail
 from isomould.form.lattice import half_width
 from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import Caps, make_profile
-from isomould.form.rail import Ends, Rail, planar_rail
-from isomould.form.settings import SurfaceSettings
+from isomould.form.rail import Rail, planar_rail
+from isomould.form.settings import Ends, SurfaceSettings
 from isomould.form.size_limit import refuse_size
 from isomould.form.spatial import SpatialPolygon, divide_in_space
 from isomould.form.surface import Surface, make_surface, parallel_lengths, refuse_flips

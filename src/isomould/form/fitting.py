@@ -7,8 +7,9 @@ from typing import NoReturn
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints
+from isomould.curves.construction import build_curve
 from isomould.curves.curve import PlanarCurve
-from isomould.curves.settings import BsplineSettings, CurveSettings, SplineSettings, build_curve
+from isomould.curves.settings import BsplineSettings, CurveSettings, SplineSettings
 from isomould.curves.turning import arcs
 from isomould.errors import Note, Refused
 from isomould.form.deviation import curve_distance

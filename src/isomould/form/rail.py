@@ -1,15 +1,13 @@
 """The rail in space: nodes, edges and the mitre vectors that carry the profile along it (geometry §3)."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from isomould.arrays import Bools, Floats, read_only
 from isomould.curves.plane import Plane
 from isomould.form.polygon import FLAT, CurvePolygon, unit
-
-Ends = Literal["square", "mitred"]
+from isomould.form.settings import Ends
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,9 @@ from isomould.settings import Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 
 Kind = Literal["isogonal", "moulding", "monge", "edge-offset"]
+Ends = Literal["square", "mitred"]
+"""Of a rail: square to its end edges, or to the mirror line there."""
+
 Inflections = Literal["nearest", "residual", "fit", "refuse"]
 
 

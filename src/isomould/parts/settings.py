@@ -15,6 +15,9 @@ from isomould.units import (
     PositiveNumber,
 )
 
+Along = Literal["generatrix", "parallel"]
+"""Between which lines a strip of panels runs."""
+
 
 class MemberSettings(Settings):
     """The `[members]` table; families without a section of their own have the first one."""
@@ -83,7 +86,7 @@ class CapSettings(Settings):
 class DrumSettings(Settings):
     """What the `[nodes]` table says of every drum."""
 
-    hardware: HardwareSettings = HardwareSettings()
+    hardware: HardwareSettings = Field(default_factory=HardwareSettings)
     drum_diameter: PositiveLength | None = None
     bore: NonNegativeLength = 20.0
     end_gap: NonNegativeLength = 2.0
@@ -129,7 +132,7 @@ class SlottedSettings(DrumSettings):
 
     detail: Annotated[Literal["slotted"], BeforeValidator(_known_detail)] = "slotted"
     retention: Literal["weld", "lipped-cap"] = "weld"
-    cap: CapSettings = CapSettings()
+    cap: CapSettings = Field(default_factory=CapSettings)
     slot_end: Literal["square", "round"] = "square"
     clearance: NonNegativeLength = 0.5
     """Width of a slot beyond the plate's thickness."""
@@ -213,7 +216,7 @@ class PanelSettings(Settings):
     """Beyond the trace of the member's centre plane, on the boundary."""
     corner_clearance: NonNegativeLength = 5.0
     """Of corners from caps that stand proud of the nodes."""
-    edge_deduction: EdgeDeduction = EdgeDeduction()
+    edge_deduction: EdgeDeduction = Field(default_factory=EdgeDeduction)
     flippable: Flag = False
     coating: Coating = "none"
     orientation_mark: Flag = True

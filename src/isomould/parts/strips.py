@@ -1,7 +1,6 @@
 """Developable strips: the panels between two generatrices or two parallels, unrolled flat (paper §3.1)."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import shapely
@@ -10,8 +9,8 @@ from isomould.arrays import Floats, Ints, read_only
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh, NodeKind
 from isomould.parts.outline import round_outline
+from isomould.parts.settings import Along
 
-Along = Literal["generatrix", "parallel"]
 """The lines that a strip lies between."""
 
 

@@ -10,7 +10,7 @@ from typing import Any, cast, get_args
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from isomould.documents.title_block import Logo
+from isomould.documents.info import Logo
 from isomould.errors import Gathering, OutputFault, Refused, RefusedTogether
 from isomould.project.logo import read_logo
 from isomould.project.schema import Project, ShapeTable

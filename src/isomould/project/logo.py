@@ -3,7 +3,7 @@
 import struct
 from pathlib import Path
 
-from isomould.documents.title_block import Logo
+from isomould.documents.info import Logo
 from isomould.errors import Refused
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"

@@ -5,12 +5,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from isomould.curves.plane import PlaneSettings
+from isomould.curves.plane_settings import PlaneSettings
 from isomould.curves.settings import CurveSettings
 from isomould.documents.cost_settings import CostSettings
 from isomould.documents.info import ProjectInfo
-from isomould.form.rail import Ends
 from isomould.form.settings import (
+    Ends,
     GeneratrixDivide,
     Inflections,
     PositiveCount,
@@ -34,7 +34,7 @@ class RailTable(Settings):
     """Of a planar rail, required."""
     up: tuple[Number, Number, Number] | None = None
     """Of a rail in space, required."""
-    divide: RailDivide = RailDivide()
+    divide: RailDivide = Field(default_factory=RailDivide)
     ends: Ends | None = None
     """Default: mitred for edge offset meshes, square for all others."""
     inflections: Inflections = "nearest"
@@ -60,7 +60,7 @@ class GeneratrixTable(Settings):
     origin: tuple[Length, Length] = (0.0, 0.0)
     axes: Literal["dz", "zd"] = "dz"
     outside: tuple[Number, Number] = (1.0, 0.0)
-    divide: GeneratrixDivide = GeneratrixDivide()
+    divide: GeneratrixDivide = Field(default_factory=GeneratrixDivide)
     inflections: Inflections = "nearest"
     flat_nodes: Flag = False
     max_edge: PositiveLength | None = None
@@ -124,15 +124,15 @@ class Project(Settings):
     project: ProjectInfo
     rail: RailTable
     generatrix: GeneratrixTable
-    surface: SurfaceSettings = SurfaceSettings()
-    members: MemberSettings = MemberSettings()
-    nodes: NodeSettings = SlottedSettings()
-    panels: PanelSettings = PanelSettings()
-    tolerances: ToleranceTable = ToleranceTable()
+    surface: SurfaceSettings = Field(default_factory=SurfaceSettings)
+    members: MemberSettings = Field(default_factory=MemberSettings)
+    nodes: NodeSettings = Field(default_factory=SlottedSettings)
+    panels: PanelSettings = Field(default_factory=PanelSettings)
+    tolerances: ToleranceTable = Field(default_factory=ToleranceTable)
     stock: StockSettings | None = None
-    costs: CostSettings = CostSettings()
-    deliver: DeliverSettings = DeliverSettings()
-    limits: LimitTable = LimitTable()
+    costs: CostSettings = Field(default_factory=CostSettings)
+    deliver: DeliverSettings = Field(default_factory=DeliverSettings)
+    limits: LimitTable = Field(default_factory=LimitTable)
     shapes: Annotated[tuple[ShapeTable, ...], AfterValidator(_distinct)] = ()
 
     def conflicts(self) -> Iterator[str]:

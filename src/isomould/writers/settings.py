@@ -6,10 +6,9 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, Field
 
-from isomould.documents.nc_parts import MassUnit
-from isomould.parts.strips import Along
+from isomould.parts.settings import Along
 from isomould.settings import Settings
-from isomould.units import Flag, Length
+from isomould.units import Flag, Length, MassUnit
 
 LayerName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_$-]{1,31}$")]
 Layer = Literal["CUT", "CUT_INNER", "DRILL", "ENGRAVE", "SCORE", "SHEET", "INFO"]

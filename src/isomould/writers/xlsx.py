@@ -12,9 +12,9 @@ from pathlib import Path
 from xlsxwriter import Workbook
 
 from isomould.documents.costs import Result
-from isomould.documents.info import ProjectInfo
+from isomould.documents.info import Logo, ProjectInfo
 from isomould.documents.table import Table, cells
-from isomould.documents.title_block import Logo, heading
+from isomould.documents.title_block import heading
 from isomould.documents.totals import Total, column_totals
 from isomould.errors import Note
 from isomould.writers.disk import write_bytes

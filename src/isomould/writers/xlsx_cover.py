@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import pandas as pd
 from xlsxwriter.utility import quote_sheetname
 
-from isomould.documents.info import ProjectInfo
+from isomould.documents.info import Logo, ProjectInfo
 from isomould.documents.table import Table, cells
-from isomould.documents.title_block import Logo, title_lines
+from isomould.documents.title_block import title_lines
 from isomould.writers.xlsx_checks import FAILED, RED
 from isomould.writers.xlsx_page import Page, absolute, write_cell, write_texts
 
