@@ -5,51 +5,29 @@ Every verb imports its rooms when it is called: a program that asks for one wait
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from isomould.errors import Note, Refused
+from isomould.running import Built, Checked, NestFiles, Run
 from isomould.verify import Certificate  # loaded here, before its name is given to the verb
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     import pandas as pd
 
     from isomould.comparison import Compared
     from isomould.delivery.nested import Targets
     from isomould.delivery.pictures import View
-    from isomould.design import Design
-    from isomould.documents.overview import Fact
     from isomould.documents.picture import Picture
-    from isomould.documents.table import Table
-    from isomould.form.survey import Division
+    from isomould.intake.member_rows import MemberList
     from isomould.nesting.layout import BarLayout, Layout
-    from isomould.nesting.member_rows import MemberList
     from isomould.nesting.search import Effort, Progress
     from isomould.nesting.stop import Stop
     from isomould.project.load import LoadedProject
-    from isomould.project.schema import Project
-    from isomould.running import Built, Run
     from isomould.study import Study
-    from isomould.units import LengthUnit
-
-
-@dataclass(frozen=True, eq=False)
-class Checked:
-    """A design that was computed without writing files, its key figures, and what should be known about it.
-
-    `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
-    lies off the curve. `kit` proves that the shapes of a project are made of one kit of nodes: a row per class, its
-    quantity in every shape, and whether all have it; None for a project of one shape.
-    """
-
-    design: Design
-    facts: tuple[Fact, ...]
-    divisions: tuple[Division, ...]
-    notes: tuple[Note, ...]
-    kit: Table | None = None
 
 
 def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
@@ -72,7 +50,7 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
 
 
 def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
-    """Compute a design and its counts; no files are written.
+    """Compute a design and its counts, and hold it to all that `build` asks before it searches; no files are written.
 
     Parameters
     ----------
@@ -81,24 +59,9 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     """
-    from isomould.project.load import load_project
+    from isomould.checking import check_file
 
-    return _check(load_project(Path(project), changes))
-
-
-def _check(loaded: LoadedProject) -> Checked:
-    from isomould.design import requests_of
-    from isomould.documents.overview import kit_facts
-    from isomould.family import kit_table, make_designs
-    from isomould.form.survey import survey
-    from isomould.project.schema import MAIN
-
-    designs = make_designs(loaded)
-    design = designs[MAIN]
-    curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
-    divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
-    kit = kit_table(designs) if loaded.shapes else None
-    return Checked(design, kit_facts(design.kit), divisions, design.notes, kit)
+    return check_file(Path(project), changes)
 
 
 def explore(project: str | Path, changes: Sequence[str] = ()) -> Study:
@@ -140,7 +103,6 @@ def build(
         With nothing published.
     """
     from isomould.project.load import load_project
-    from isomould.running import Run
     from isomould.writers.names import safe_name
 
     loaded = load_project(Path(project), changes)
@@ -159,7 +121,6 @@ def schedule(
     Parameters and errors are those of `build`.
     """
     from isomould.project.load import load_project
-    from isomould.running import Run
     from isomould.writers.names import safe_name
 
     loaded = load_project(Path(project), changes)
@@ -203,41 +164,6 @@ def verify(
         if path.is_file():
             return verify_nest(path, sheets, plan, saw_list, spread)
         return verify_folder(path, spread=spread)
-
-
-@dataclass(frozen=True)
-class NestFiles:
-    """What `nest` reads and writes beside part list and layout.
-
-    Attributes
-    ----------
-    stock
-        A TOML file with a `[stock]` table, such as a project: its keys take the place of the part list's.
-    changes
-        Keys of that table, which take the place of both, such as `{"gap": 5, "sheets": [...]}`.
-    sheets
-        A folder for the sheets as DXF.
-    plan
-        A PDF file for the cutting plan, or of members for the saw list.
-    saw_list
-        A file for the saw list of members, `.csv` or `.xlsx`.
-    overwrite
-        Whether a folder of earlier sheets may be replaced.
-    units, layer
-        Of drawings and tables that do not say their unit; where drawings have their outline.
-    columns
-        Headings of a table by what they mean, such as `{"id": "Label"}`; others are found by the words of the trade.
-    """
-
-    stock: Path | None = None
-    changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
-    sheets: Path | None = None
-    plan: Path | None = None
-    saw_list: Path | None = None
-    overwrite: bool = False
-    units: LengthUnit | None = None
-    layer: str = "CUT"
-    columns: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 def nest(
@@ -354,42 +280,12 @@ def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | 
 
     from isomould.comparison import compare_families
     from isomould.design import make_design
-    from isomould.writers.disk import replace_file
+    from isomould.families_file import write_families
 
     compared = compare_families(make_design(loaded.project, loaded.folder))
     if out is not None:
-        replace_file(Path(out), _families_bytes(Path(out), compared, loaded))
+        write_families(Path(out), compared, loaded)
     return compared
-
-
-def _priced(compared: tuple[Compared, ...], project: Project) -> tuple[Table, ...]:
-    """Give rates and the price of repetition, if the project has rates."""
-    from isomould.nesting.settings import StockSettings
-    from isomould.repetition import is_priced, make_pricing, price_families
-
-    if not is_priced(project):
-        return ()
-    pricing = replace(make_pricing(project, project.stock or StockSettings()), repetition=True)
-    return price_families(compared, project, pricing)
-
-
-def _families_bytes(out: Path, compared: tuple[Compared, ...], loaded: LoadedProject) -> bytes:
-    """Write a comparison in the format that the file's name asks for."""
-    from isomould.comparison import families_table
-    from isomould.writers.csv import csv_text
-    from isomould.writers.xlsx import Words, workbook_bytes
-
-    table = families_table(compared)
-    match out.suffix.lower():
-        case ".csv":
-            return csv_text(table).encode()
-        case ".xlsx":
-            return workbook_bytes(
-                (table, *_priced(compared, loaded.project)), Words(loaded.project.project, logo=loaded.logo)
-            )
-        case _:
-            way_out = "Write --out families.csv or --out families.xlsx."
-            raise Refused("E-COMPARE-FILE", "--out", str(out), "a file that ends in .csv or .xlsx", way_out)
 
 
 def draw(

@@ -4,12 +4,11 @@ Independent refusals are gathered over all stages and come together, in the orde
 surface, details, parts, stock. A build rehearses too before it begins to search.
 """
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 
 from isomould.comparison import planar_rail_of
 from isomould.cutting import member_parts, panel_parts, refuse_bars, refuse_sheets, refuse_stock
-from isomould.design import Design, Sketch, TriedDesign, kit_settings, try_curves, try_design
+from isomould.design import Design, Sketch, TriedDesign, kit_settings, try_design
 from isomould.errors import Attempt, Gathering, Refused
 from isomould.family import one_kit, try_shapes
 from isomould.nesting.settings import StockSettings
@@ -17,43 +16,15 @@ from isomould.parts.building import make_shapes
 from isomould.parts.clash import refuse_clashes
 from isomould.parts.solid import make_bodies
 from isomould.parts.strips import unroll_strips
-from isomould.project.load import LoadedProject, load_project, read_tables
-from isomould.project.salvage import salvage
+from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN, Project
-from isomould.writers.names import safe_name
 from isomould.writers.parquet import require_parquet
 
 Refusing = Callable[[Design], None]
 """Holds a design against something, and refuses it or does nothing."""
 
 
-def rehearse_file(path: Path, changes: Sequence[str]) -> tuple[LoadedProject, dict[str, Design]]:
-    """Read a project and compute its shapes as a build does, up to the search, with all clashes of parts.
-
-    Of a file with faults the curves are tried all the same if it describes them well.
-
-    Raises
-    ------
-    Refused
-        All that a build would refuse, together.
-    """
-    with Gathering() as faults:
-        loaded = faults.run(load_project, path, changes)
-        if loaded.refused:
-            faults.run(_try_salvaged, path, changes, faults)
-        faults.run(lambda: safe_name(loaded.value.project.project.name))
-        designs = faults.run(lambda: rehearse(loaded.value, _refuse_clashes))
-        return loaded.value, designs.value
-
-
-def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None:
-    """Draw and divide the curves of a file that has faults elsewhere."""
-    project = salvage(read_tables(path, changes))
-    if project is not None:
-        try_curves(project, path.resolve().parent, faults)
-
-
-def _refuse_clashes(design: Design) -> None:
+def refuse_all_clashes(design: Design) -> None:
     """Refuse parts that take each other's space, as a build does with solids that are measured too."""
     kit, settings = design.kit, kit_settings(design.project)
     refuse_clashes(kit, settings, make_shapes(kit, settings, make_bodies(kit.nodes, kit.joints)))

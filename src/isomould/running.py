@@ -1,17 +1,21 @@
-"""How a build is run, and what comes of it: what callers know before any stage is loaded."""
+"""How verbs are run, and what comes of it: what callers know before any stage is loaded."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from isomould.design import Design
+    from isomould.documents.overview import Fact
     from isomould.documents.table import Table
+    from isomould.errors import Note
+    from isomould.form.survey import Division
     from isomould.nesting.search import Effort
+    from isomould.units import LengthUnit
     from isomould.verify import Certificate
 
 Report = Callable[[str], None]
@@ -40,3 +44,54 @@ class Run:
     jobs: int | None = None
     report: Report = lambda stage: None
     previous: Path | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """A design that was computed without writing files, its key figures, and what should be known about it.
+
+    `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
+    lies off the curve. `kit` proves that the shapes of a project are made of one kit of nodes: a row per class, its
+    quantity in every shape, and whether all have it; None for a project of one shape.
+    """
+
+    design: Design
+    facts: tuple[Fact, ...]
+    divisions: tuple[Division, ...]
+    notes: tuple[Note, ...]
+    kit: Table | None = None
+
+
+@dataclass(frozen=True)
+class NestFiles:
+    """What `nest` reads and writes beside part list and layout.
+
+    Attributes
+    ----------
+    stock
+        A TOML file with a `[stock]` table, such as a project: its keys take the place of the part list's.
+    changes
+        Keys of that table, which take the place of both, such as `{"gap": 5, "sheets": [...]}`.
+    sheets
+        A folder for the sheets as DXF.
+    plan
+        A PDF file for the cutting plan, or of members for the saw list.
+    saw_list
+        A file for the saw list of members, `.csv` or `.xlsx`.
+    overwrite
+        Whether a folder of earlier sheets may be replaced.
+    units, layer
+        Of drawings and tables that do not say their unit; where drawings have their outline.
+    columns
+        Headings of a table by what they mean, such as `{"id": "Label"}`; others are found by the words of the trade.
+    """
+
+    stock: Path | None = None
+    changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    sheets: Path | None = None
+    plan: Path | None = None
+    saw_list: Path | None = None
+    overwrite: bool = False
+    units: LengthUnit | None = None
+    layer: str = "CUT"
+    columns: Mapping[str, str] = field(default_factory=dict[str, str])

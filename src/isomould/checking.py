@@ -1,0 +1,73 @@
+"""What `check` does: a file is read, rehearsed as a build would, and what it comes to is said.
+
+Each room is imported when it is reached: a file that cannot be read is refused before any numerics are loaded.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from isomould.errors import Attempt, Gathering
+from isomould.project.load import LoadedProject, load_project, read_tables
+from isomould.project.salvage import salvage
+from isomould.project.schema import MAIN
+from isomould.running import Checked
+from isomould.writers.names import safe_name
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+    from typing import Any
+
+    from isomould.design import Design
+
+
+def check_file(path: Path, changes: Sequence[str]) -> Checked:
+    """Read a project, compute its shapes as a build does up to the search, and say what they come to.
+
+    Of a file with faults the curves are tried all the same if it describes them well.
+
+    Raises
+    ------
+    Refused
+        All that a build would refuse, together.
+    """
+    with Gathering() as faults:
+        tables = read_tables(path, changes)
+        loaded = faults.run(load_project, path, changes)
+        if loaded.refused:
+            faults.run(_try_salvaged, tables, path, faults)
+        faults.run(lambda: safe_name(loaded.value.project.project.name))
+        designs = faults.run(lambda: _rehearsed(loaded))
+        return _checked(loaded.value, designs.value)
+
+
+def _try_salvaged(tables: Mapping[str, Any], path: Path, faults: Gathering) -> None:
+    """Draw and divide the curves of a file that has faults elsewhere."""
+    project = salvage(tables)
+    if project is not None:
+        from isomould.design import try_curves
+
+        try_curves(project, path.resolve().parent, faults)
+
+
+def _rehearsed(loaded: Attempt[LoadedProject]) -> dict[str, Design]:
+    project = loaded.value  # ends here if there is none
+
+    from isomould.rehearsal import refuse_all_clashes, rehearse
+
+    return rehearse(project, refuse_all_clashes)
+
+
+def _checked(loaded: LoadedProject, designs: dict[str, Design]) -> Checked:
+    """Say what the shapes of a project come to; the facts are those of the first."""
+    from isomould.design import requests_of
+    from isomould.documents.overview import kit_facts
+    from isomould.family import kit_table
+    from isomould.form.survey import survey
+
+    design = designs[MAIN]
+    curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
+    divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
+    kit = kit_table(designs) if loaded.shapes else None
+    return Checked(design, kit_facts(design.kit), divisions, design.notes, kit)
