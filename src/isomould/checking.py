@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from isomould.errors import Attempt, Gathering
+from isomould.errors import Attempt, Gathering, Refused
 from isomould.project.load import LoadedProject, load_project, read_tables
 from isomould.project.salvage import salvage
 from isomould.project.schema import MAIN
@@ -15,9 +15,8 @@ from isomould.running import Checked
 from isomould.writers.names import safe_name
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
-    from typing import Any
 
     from isomould.design import Design
 
@@ -33,18 +32,20 @@ def check_file(path: Path, changes: Sequence[str]) -> Checked:
         All that a build would refuse, together.
     """
     with Gathering() as faults:
-        tables = read_tables(path, changes)
         loaded = faults.run(load_project, path, changes)
         if loaded.refused:
-            faults.run(_try_salvaged, tables, path, faults)
+            faults.run(_try_salvaged, path, changes, faults)
         faults.run(lambda: safe_name(loaded.value.project.project.name))
         designs = faults.run(lambda: _rehearsed(loaded))
         return _checked(loaded.value, designs.value)
 
 
-def _try_salvaged(tables: Mapping[str, Any], path: Path, faults: Gathering) -> None:
-    """Draw and divide the curves of a file that has faults elsewhere."""
-    project = salvage(tables)
+def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None:
+    """Draw and divide the curves of a file that has faults elsewhere; what cannot be read was told already."""
+    try:
+        project = salvage(read_tables(path, changes))
+    except Refused:
+        return
     if project is not None:
         from isomould.design import try_curves
 
