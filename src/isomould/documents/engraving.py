@@ -94,7 +94,14 @@ def _below(text: str, corner: Floats, height: float) -> Stamp:
 
 
 def _middle(free: BaseGeometry) -> shapely.Point:
-    return free.centroid if free.contains(free.centroid) else free.representative_point()
+    if free.contains(free.centroid):
+        return free.centroid
+    # corners of arcs carry noise, which must not choose between rooms of one size on both sides of a hole
+    return shapely.transform(free, _settled).representative_point()
+
+
+def _settled(points: Floats) -> Floats:
+    return np.round(points, 6)
 
 
 def _box(stamp: Stamp) -> shapely.Polygon:

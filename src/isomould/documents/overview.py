@@ -11,6 +11,7 @@ from isomould.nesting.layout import BarLayout, Layout
 from isomould.parts.details.joint import tightest
 from isomould.parts.kit import Kit
 from isomould.parts.solid import Solid
+from isomould.ties import FINE, first_largest
 
 Fact = tuple[str, float, str]
 """Item, value, unit; values are rounded for people to read."""
@@ -112,10 +113,10 @@ def _row(
     number: str, what: str, values: object, where: tuple[str, ...], limit: float | None, unit: str
 ) -> tuple[object, ...]:
     found = np.asarray(values, dtype=np.float64)
-    worst = int(np.argmax(found))
-    passed = limit is None or found[worst] <= limit
+    worst = float(found.max())
+    passed = limit is None or worst <= limit
     status, reason = (
         "pass" if passed else "fail",
         "" if limit is not None else "held when the classes were made",
     )
-    return number, what, len(found), float(found[worst]), where[worst], limit, unit, status, reason
+    return number, what, len(found), worst, where[first_largest(found, FINE)], limit, unit, status, reason

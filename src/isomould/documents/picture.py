@@ -101,5 +101,5 @@ def blend(low: str, high: str, share: float) -> str:
     '#808080'
     """
     a, b = (np.array([int(text[k : k + 2], 16) for k in (1, 3, 5)]) for text in (low, high))
-    red, green, blue = np.rint(a + (b - a) * share).astype(int).tolist()
+    red, green, blue = np.rint(a + (b - a) * round(share, 9)).astype(int).tolist()
     return f"#{red:02x}{green:02x}{blue:02x}"

@@ -75,6 +75,7 @@ Described = tuple[list[int], list[list[float]]]
 def _match_alike(ours: Described, theirs: Described, found: Ints) -> None:
     """Match rows whose texts agree by their numbers, nearest first."""
     near = KDTree(ours[1]).sparse_distance_matrix(KDTree(theirs[1]), _LAST_DIGITS, p=np.inf, output_type="ndarray")
+    near["v"] = np.round(near["v"], 6)
     taken: set[int] = set()
     for pair in np.sort(near, order=["v", "i", "j"]).tolist():
         a, b = ours[0][pair[0]], theirs[0][pair[1]]

@@ -11,6 +11,7 @@ from isomould.form.mesh import Mesh, NodeKind
 from isomould.parts.arms import normalised
 from isomould.parts.kit import Kit
 from isomould.parts.strips import Strip, unroll_strips
+from isomould.ties import FINE, in_order
 
 SpaceView = Literal["axonometry", "plan", "elevation"]
 WIDTH, MARGIN, FOOT = 960.0, 24.0, 30.0
@@ -36,7 +37,7 @@ def space_picture(kit: Kit, name: str, view: SpaceView) -> Picture:
     near = np.maximum.reduceat(depth[kit.mesh.faces], kit.mesh.face_offsets[:-1])
     middle = np.add.reduceat(depth[kit.mesh.faces], kit.mesh.face_offsets[:-1]) / np.diff(kit.mesh.face_offsets)
     items: list[Item] = [*_panels(kit.mesh, placed, eye), *_dots(kit, placed, frame)]
-    order = np.argsort(np.concatenate([middle, _in_front(kit.mesh, depth, near)]), kind="stable")
+    order = in_order(np.concatenate([middle, _in_front(kit.mesh, depth, near)]))
     return Picture(f"{name}, {view}", WIDTH, frame.height, (*(items[k] for k in order), _caption(kit, name)))
 
 
@@ -70,7 +71,7 @@ def _oblique(turn: float, rise: float) -> tuple[Floats, Floats, Floats]:
 def _panels(mesh: Mesh, placed: Floats, eye: Floats) -> list[Shape]:
     corner = [mesh.nodes[mesh.faces[mesh.face_offsets[:-1] + k]] for k in range(3)]
     normal = normalised(np.cross(corner[1] - corner[0], corner[2] - corner[0]))
-    outside, light = normal @ eye >= 0, normal @ _LIGHT
+    outside, light = normal @ eye >= -FINE, normal @ _LIGHT
     share = np.clip(0.5 - 0.5 * np.where(outside, light, -light), 0.0, 1.0)
     fills = [blend(_OUTSIDE if out else _INSIDE, _SHADE, s) for out, s in zip(outside, share.tolist(), strict=True)]
     outlines = np.split(placed[mesh.faces], mesh.face_offsets[1:-1])

@@ -45,7 +45,7 @@ def _with_leftover(turns: Spans, runs: Arcs, run: int, step: float, takes: tuple
     start, end = float(turns.theta0[runs.first[run]]), float(turns.theta1[runs.last[run]])
     if runs.sign[run] == 0:
         return EvenLattice(start, step)
-    count = max(round(abs(end - start) / step), 1)
+    count = max(round(round(abs(end - start) / step, 9)), 1)
     share = np.zeros(count)
     share[[0]] += takes[0]
     share[[-1]] += takes[1]

@@ -15,6 +15,7 @@ from isomould.errors import Note, Refused
 from isomould.form.deviation import curve_distance
 from isomould.form.division import Request, smooth_spans, turning_angle
 from isomould.form.settings import GeneratrixDivide
+from isomould.ties import FINE, first_least
 from isomould.units import MM_PER_UNIT
 
 _SETTLED = 1e-12
@@ -131,11 +132,11 @@ def _shared_out(wanted: Floats, total: int, field: str) -> Floats:
     """Whole numbers (a,), one at least, near to those wanted, that add up to the total."""
     if total < len(wanted):
         _refuse_unfit(field, f"{total} nodes for {len(wanted)} arcs")
-    counts = np.maximum(np.rint(wanted), 1)
+    counts = np.maximum(np.rint(np.round(wanted, 9)), 1)
     while counts.size and counts.sum() != total:
         step = np.sign(total - counts.sum())
         cost = np.where(counts + step >= 1, np.abs(wanted - counts - step) - np.abs(wanted - counts), np.inf)
-        counts[np.argmin(cost)] += step
+        counts[first_least(cost, FINE)] += step
     return counts
 
 

@@ -8,6 +8,7 @@ from isomould.arrays import Floats, read_only
 from isomould.errors import Refused
 from isomould.form.profile import Profile
 from isomould.form.rail import Rail
+from isomould.ties import FINE, first_largest
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ def _refuse_parallels(rail: Rail, offsets: Floats, limit: float) -> None:
 def _away(growth: Floats) -> Floats:
     """Unit direction (2,) in (d, z), rather outside than inside, in which edges grow or shrink most."""
     size = float(np.hypot(*growth))
-    return growth / size * np.sign(growth[np.argmax(np.abs(growth))]) if size else np.array([1.0, 0.0])
+    return growth / size * np.sign(growth[first_largest(np.abs(growth), FINE * size)]) if size else np.array([1.0, 0.0])
 
 
 def _said(away: Floats) -> str:

@@ -18,6 +18,7 @@ from isomould.curves.turning import Arcs, Spans, arcs, tangency
 from isomould.errors import Refused
 from isomould.form.lattice import Lattice
 from isomould.form.polygon import Edges, Role
+from isomould.ties import FINE, first_least
 
 _ON_LATTICE = 1e-9
 _NOISE = 0.01
@@ -101,7 +102,7 @@ def _on_straight(curve: PlanarCurve, turns: Spans, first: int, last: int, point:
     start = curve.point(turns.piece[rows], turns.t0[rows])
     chord = curve.point(turns.piece[rows], turns.t1[rows]) - start
     share = np.einsum("ij,ij->i", point - start, chord) / np.einsum("ij,ij->i", chord, chord)
-    row = int(np.argmin(np.abs(share - 0.5)))
+    row = first_least(np.abs(share - 0.5), FINE)
     t0, t1 = turns.t0[rows[row]], turns.t1[rows[row]]
     return int(rows[row]), float(t0 + np.clip(share[row], 0, 1) * (t1 - t0))
 

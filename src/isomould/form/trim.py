@@ -14,6 +14,7 @@ from isomould.errors import Note, Refused
 from isomould.form.mesh import Family, Mesh, NodeKind
 from isomould.form.rims import sill_notes, sliver_notes, with_sills
 from isomould.form.settings import SurfaceSettings, TrimSettings
+from isomould.ties import FINE
 
 _NOISE = 1e-6
 """mm: nodes nearer than this to a plane lie on it."""
@@ -140,7 +141,7 @@ def _near(mesh: Mesh, pairs: Ints, side: Ints, height: Floats, min_member: float
     share = _shares(height, ends)
     length = np.linalg.norm(mesh.nodes[ends[:, 1]] - mesh.nodes[ends[:, 0]], axis=1)
     close = np.minimum(share, 1 - share) * length < min_member
-    return np.unique(np.where(share < 0.5, ends[:, 0], ends[:, 1])[close])
+    return np.unique(np.where(share < 0.5 - FINE, ends[:, 0], ends[:, 1])[close])
 
 
 def _cross(mesh: Mesh, pairs: Ints, height: Floats, cut: Cut, min_member: float) -> _Crossings:

@@ -10,6 +10,7 @@ from isomould.measure.faces import faces_by_corners
 from isomould.measure.joints import edge_lengths
 from isomould.parts.arms import Arms
 from isomould.parts.quality import node_torsion
+from isomould.ties import first_least_of_rows
 
 TORSION_DEG = 0.01
 """Nodes twisted by more than this cannot have all their beams upright on one axis; the limit of the certificate."""
@@ -71,5 +72,5 @@ def _boxes(flat: Floats) -> Floats:
     along = sides / np.linalg.norm(sides, axis=2, keepdims=True)
     across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
     spans = np.stack([np.ptp(np.einsum("fmk,fnk->fnm", flat, axis), axis=2) for axis in (along, across)], axis=-1)
-    best = spans.prod(axis=2).argmin(axis=1)
+    best = first_least_of_rows(spans.prod(axis=2))
     return np.sort(spans[np.arange(len(flat)), best], axis=1)[:, ::-1]

@@ -12,6 +12,7 @@ from isomould.nesting.bar_ladder import Ladder, exact_ladder, grid, grid_step
 from isomould.nesting.bar_pricing import most_worth
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
 from isomould.nesting.layout import BoundKind
+from isomould.ties import first_least
 
 ROUNDS = 60
 """Rounds of pricing."""
@@ -161,7 +162,7 @@ def _least_listed(demand: Demand, weights: Floats, above: float) -> Ints | None:
     mixes = np.stack([axis.ravel() for axis in np.indices(tuple(demand.limits + 1))])
     weight = weights @ mixes
     held = (demand.rows @ mixes >= demand.asked[:, None] - SLIGHT).all(axis=0) & (weight >= above)
-    return mixes[:, held][:, np.argmin(weight[held])] if held.any() else None
+    return mixes[:, held][:, first_least(weight[held])] if held.any() else None
 
 
 def _least_searched(demand: Demand, weights: Floats, above: float) -> Ints | None:

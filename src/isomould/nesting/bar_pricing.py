@@ -7,6 +7,7 @@ import numpy as np
 from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.bar_ladder import Ladder, copies_of
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
+from isomould.ties import FINE, in_order
 
 SLIGHT = 1e-7
 """Gain of a pattern below which it is none, in costs of the dearest bar."""
@@ -39,7 +40,7 @@ def price(rack: BarRack, need: Need, values: Values, ladder: Ladder) -> tuple[li
     for kind in np.flatnonzero(need.limits > 0).tolist():
         takes = _patterns(int(ladder.tops[kind]), np.flatnonzero(copies), (items, taken), ladder)
         gain = takes @ values.worth - values.charges[kind]
-        order = np.argsort(-gain, kind="stable")
+        order = in_order(-gain, FINE)
         order = order[(gain[order] > SLIGHT) & (takes[order] <= need.counts).all(axis=1)]
         found += [Pattern(kind, takes[row]) for row in order[: max(COLUMNS // len(rack.rooms), 1)]]
     return found, best[ladder.tops]

@@ -9,6 +9,7 @@ from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, fits
 from isomould.nesting.bar_ladder import copies_of
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, sum_of
+from isomould.ties import FINE, first_least, in_order
 
 BRANCHES, MANY = 50, 1_000
 """Branches that whole numbers may take of the best patterns, and of all."""
@@ -30,7 +31,7 @@ def choose_whole(programme: Programme, need: Need, shares: Shares) -> list[Patte
     """Give the cheapest bars of the patterns that gain the most, as far as few branches tell; or none."""
     known = [pattern for pattern, fit in zip(programme.patterns, fits(programme, need), strict=True) if fit]
     gains = [float(p.takes @ shares.worth - programme.costs[p.kind] - shares.tolls[p.kind]) for p in known]
-    patterns = [known[k] for k in np.argsort(-np.array(gains), kind="stable")[:CHOICE]]
+    patterns = [known[k] for k in in_order(-np.array(gains), FINE)[:CHOICE]]
     if not patterns:
         return []
     takes, kinds = np.array([pattern.takes for pattern in patterns]), [pattern.kind for pattern in patterns]
@@ -62,7 +63,7 @@ def _step_by_step(rack: BarRack, need: Need, patterns: Sequence[Pattern]) -> lis
     for state, wanted in enumerate(states[1:], start=1):
         fit = np.flatnonzero(takes[:, np.argmax(wanted > 0)])
         weight = weights[fit] + least[np.maximum(wanted - takes[fit], 0) @ strides]
-        least[state], chosen[state] = weight.min(), fit[np.argmin(weight)]
+        least[state], chosen[state] = weight.min(), fit[first_least(weight)]
     return _traced(need, patterns, chosen, strides)
 
 

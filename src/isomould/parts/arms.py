@@ -10,6 +10,7 @@ import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints, read_only
 from isomould.form.mesh import Family, Mesh
+from isomould.ties import FINE, first_least_of_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ def normalised(vectors: Floats) -> Floats:
 
 def across(axes: Floats) -> tuple[Floats, Floats]:
     """Two unit vectors (n, 3), (n, 3) that make right-handed frames with the unit axes (n, 3)."""
-    helper = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    helper = np.eye(3)[first_least_of_rows(np.abs(axes), FINE)]
     first = normalised(np.cross(helper, axes))
     return first, np.cross(axes, first)
 
@@ -83,7 +84,9 @@ def across(axes: Floats) -> tuple[Floats, Floats]:
 def _angles(axes: Floats, direction: Floats) -> tuple[Floats, Floats]:
     first, second = across(axes)
     x, y, z = (np.einsum("ij,ij->i", axis, direction) for axis in (first, second, axes))
-    return np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
+    turn = np.arctan2(y, x)
+    # half a turn is +π on every machine: the sign of a noisy y must not decide which arm comes first
+    return np.where(turn < FINE - np.pi, turn + 2 * np.pi, turn), np.arctan2(z, np.hypot(x, y))
 
 
 def _gaps(azimuth: Floats, offsets: Ints) -> Floats:

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints, read_only
+from isomould.ties import FINE, first_least, in_order
 
 Handed = Literal["none", "L", "R"]
 """Chirality of a part: its mirror image is another part, unless it is none."""
@@ -109,7 +110,7 @@ def handedness(
     left = np.arange(numbers.shape[1]) < own[0].shape[1]
     alive = np.ones(numbers.shape[:2], dtype=bool)
     columns = np.concatenate([numbers, labels], axis=2)
-    slack = np.concatenate([tolerance, np.zeros(labels.shape[2])])
+    slack = np.concatenate([tolerance + FINE, np.zeros(labels.shape[2])])
     for column in np.arange(columns.shape[2]) if order is None else order:
         value = np.where(alive, columns[..., column], np.inf)
         alive &= value <= value.min(axis=1, keepdims=True) + slack[column]
@@ -120,7 +121,7 @@ def handedness(
 
 def _agree(own: tuple[Floats, Ints], mirror: tuple[Floats, Ints], tolerance: Floats) -> Bools:
     """Whether parts (k,) as they stand agree with a variant of their mirror images."""
-    spread = np.abs(mirror[0] - own[0][:, :1]) <= tolerance
+    spread = np.abs(mirror[0] - own[0][:, :1]) <= tolerance + FINE
     return np.any(spread.all(axis=2) & (mirror[1] == own[1][:, :1]).all(axis=2), axis=1)
 
 
@@ -151,7 +152,7 @@ def _merge(numbers: Floats, labels: Ints, best: Ints, tolerance: Floats) -> Ints
     low, high = np.empty_like(numbers[:, 0]), np.empty_like(numbers[:, 0])
     founder, count, window = np.empty(len(size), dtype=np.int64), 0, 0
     of = np.empty(len(size), dtype=np.int64)
-    for proto in np.argsort(size, kind="stable"):
+    for proto in in_order(size):
         while window < count and size[founder[window]] < size[proto] - len(tolerance) - 1:
             window += 1
         open_classes = slice(window, count)
@@ -175,11 +176,11 @@ def _first_fit(
 ) -> tuple[int, int] | None:
     """Class and variant (s, q) that keep max − min within the tolerance; None if no class (k, q) does."""
     spread = np.maximum(high[:, None], variants) - np.minimum(low[:, None], variants)
-    fits = (spread <= tolerance).all(axis=2) & (labels[None] == tags[:, None]).all(axis=2)
+    fits = (spread <= tolerance + FINE).all(axis=2) & (labels[None] == tags[:, None]).all(axis=2)
     if not fits.any():
         return None
     where = np.argwhere(fits)
-    tightest = np.argmin((spread / tolerance).max(axis=2)[fits])
+    tightest = first_least((spread / tolerance).max(axis=2)[fits])
     return int(where[tightest, 0]), int(where[tightest, 1])
 
 

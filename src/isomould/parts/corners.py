@@ -12,6 +12,7 @@ from isomould.arrays import Floats, read_only, round_um
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh
 from isomould.parts.arms import across, normalised
+from isomould.ties import first_least_of_rows
 
 _ON_LINE = 1e-9
 """Points that are less far (mm) outside a side are on it."""
@@ -113,4 +114,4 @@ def _rounded_in(points: Floats, inward: Floats, on: Floats) -> Floats:
     near = round_um(round_um(points)[:, None] + steps)
     outside = np.einsum("nki,ni->nk", near - on[:, None], inward) < -_ON_LINE
     away = np.where(outside, np.inf, np.linalg.norm(near - points[:, None], axis=-1))
-    return near[np.arange(len(points)), away.argmin(axis=1)]
+    return near[np.arange(len(points)), first_least_of_rows(away)]

@@ -18,6 +18,7 @@ from isomould.parts.panels import PanelParts, make_panels, refuse_bearing
 from isomould.parts.quality import beam_mismatch, node_torsion, refuse_torsion
 from isomould.parts.settings import CongruenceSettings, MemberSettings, NodeSettings, PanelSettings
 from isomould.parts.supports import Base, make_bases, up_directions
+from isomould.ties import first_largest
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Kit:
     @property
     def notes(self) -> tuple[Note, ...]:
         """What should be known about the parts."""
-        worst = int(np.argmax(self.mismatch))
+        worst = first_largest(self.mismatch)
         text = f"beams mismatch by up to {self.mismatch[worst]:.3f} mm at a node ({self.nodes.locations[worst]})"
         return (Note("W-NODE-MISMATCH", "surface.kind", text),) if self.mismatch[worst] > 1e-6 else ()
 

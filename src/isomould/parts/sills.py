@@ -15,6 +15,7 @@ from isomould.parts.arms import Arms, normalised
 from isomould.parts.catalogue import AnySection
 from isomould.parts.details.joint import Joint
 from isomould.parts.settings import MemberSettings
+from isomould.ties import FINE
 
 
 def set_backs(mesh: Mesh, arms: Arms, joints: Sequence[Joint], settings: MemberSettings) -> Floats:
@@ -57,7 +58,7 @@ def _past_member(arms: Arms, rows: tuple[int, int], tops: Floats, sections: list
     breadth = sections[arms.edge[other]].width
     beside = _beside(arms, rows, tops, sections, breadth)
     before = _ahead(arms, rows, tops, sections, (breadth, 0.0))
-    backwards = arms.direction[other] @ arms.direction[row] <= 0
+    backwards = arms.direction[other] @ arms.direction[row] <= FINE
     return min(beside, before) if backwards else beside
 
 

@@ -22,6 +22,7 @@ from isomould.parts.nodes import NodeArms, NodeParts
 from isomould.parts.outline import area, round_outline
 from isomould.parts.plates import Shape, extrude, hole_contour
 from isomould.parts.settings import BasePlateSettings, MemberSettings
+from isomould.ties import first_least_of_rows
 
 _SEAT = 0.9
 """Share of the drum's chord through the work point that the stem carries at most."""
@@ -79,8 +80,8 @@ def up_directions(mesh: Mesh, cuts: Sequence[Cut]) -> Floats:
     """Give the normal (n, 3) of the nearest trimming plane at every support; zeros at all other nodes."""
     up = np.zeros_like(mesh.nodes)
     if cuts:
-        nearest = np.abs([cut.heights(mesh.nodes) for cut in cuts]).argmin(axis=0)
-        up[:] = np.stack([cut.normal for cut in cuts])[nearest]
+        heights = np.abs(np.stack([cut.heights(mesh.nodes) for cut in cuts], axis=1))
+        up[:] = np.stack([cut.normal for cut in cuts])[first_least_of_rows(heights)]
     up[mesh.kind != NodeKind.SUPPORT] = 0.0
     return up
 

@@ -101,7 +101,8 @@ def _(item: Text, left: float) -> Body:
     back = _SHARE[item.anchor] * text_width(item.text, item.height, bold=item.bold)
     x, y = item.at[0] - back * math.cos(item.turn) + left, item.at[1] - back * math.sin(item.turn)
     place = f" 10\n{x:.4f}\n 20\n{y:.4f}\n 30\n0\n 40\n{item.height:.4f}\n  1\n{_plain(item.text)}\n"
-    turned = f"{place} 50\n{math.degrees(item.turn):.4f}\n  7\n{_STYLE}\n"
+    degrees = round(math.degrees(item.turn), 4) + 0.0
+    turned = f"{place} 50\n{degrees:.4f}\n  7\n{_STYLE}\n"
     return "TEXT", _TEXT_LAYER, f"100\nAcDbText\n{turned}100\nAcDbText\n"
 
 

@@ -17,6 +17,7 @@ from isomould.documents.shop.title_block import Stationery, Subject, finish, roo
 from isomould.documents.shop.view import View, scale_text
 from isomould.form.mesh import Mesh
 from isomould.parts.kit import Kit
+from isomould.ties import NOISE
 
 _SCALES = (5.0, 10.0, 20.0, 25.0, 30.0, 40.0, 50.0, 75.0, 100.0, 200.0, 500.0, 1000.0)
 """Scales of the development: finer steps than elsewhere save sheets."""
@@ -66,7 +67,7 @@ def _developed(stationery: Stationery, kit: Kit) -> Iterator[tuple[tuple[str, st
 
 def _readable(side: float, text: float) -> float:
     """Smallest scale of the list at which a usual side is as long as the longest text, else the largest."""
-    return next((scale for scale in reversed(_SCALES) if side / scale >= text), _SCALES[0])
+    return next((scale for scale in reversed(_SCALES) if side / scale >= text - NOISE), _SCALES[0])
 
 
 def _runs(numbers: Ints, most: int) -> list[range]:
@@ -87,7 +88,7 @@ def _block_sheet(
     left, bottom, space = place
     low, high = block.extent
     extent = high - low
-    scale = next((s for s in _SCALES if s >= scale and (extent / s <= np.array(space)).all()), _SCALES[-1])
+    scale = next((s for s in _SCALES if s >= scale and (extent / s <= np.array(space) + NOISE).all()), _SCALES[-1])
     middle_of = np.array([left + space[0] / 2, bottom + space[1] / 2])
     view = View(scale, (low + high) / 2, middle_of)
     rows, strips = _shown(block, labels.mesh)

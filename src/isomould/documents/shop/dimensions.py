@@ -11,6 +11,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.documents.shop.font import text_width
 from isomould.documents.shop.page import SMALL, Item, Line, Text, point, reading
+from isomould.ties import FINE
 
 FIRST, PITCH = 9.0, 7.0
 """From the side to the first row of dimensions, and from row to row, mm."""
@@ -208,7 +209,7 @@ def _along_line(side: Side, u: float, v: float, text: str) -> Text:
     turned = Side(side.origin, side.away, side.along)
     up = np.array([-np.sin(turned.turn), np.cos(turned.turn)])
     reading = np.array([np.cos(turned.turn), np.sin(turned.turn)])
-    outwards = float(reading @ side.away) > 0
+    outwards = float(reading @ side.away) > -FINE
     return Text(text, point(side.at(u, v) - SMALL / 2 * up), SMALL, "start" if outwards else "end", turned.turn)
 
 

@@ -11,6 +11,7 @@ from isomould.documents.shop.font import text_width
 from isomould.documents.shop.page import SMALL, SMALLEST, Text, point, reading
 from isomould.form.mesh import Mesh
 from isomould.parts.kit import Kit
+from isomould.ties import NOISE
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +92,7 @@ def _along_side(start: Floats, end: Floats, name: str) -> list[Text]:
 
 def _at_corner(corner: Floats, centre: Floats, name: str) -> list[Text]:
     """Ways to write a name level inside a panel near one of its corners."""
-    right, up = (np.sign(centre - corner)).tolist()
+    right, up = np.where(centre - corner > -NOISE, 1.0, -1.0).tolist()
     anchor = "start" if right > 0 else "end"
     lift = 0.0 if up > 0 else -SMALLEST
     return [

@@ -30,6 +30,7 @@ from isomould.documents.shop.view import View, choose_paper, fit_scale, scale_te
 from isomould.documents.table import Table
 from isomould.parts.features import Hole
 from isomould.parts.members import MemberShape
+from isomould.ties import NOISE, first_least
 
 _END_SHARE = 0.75
 """How much of an end is enlarged, in depths of the section."""
@@ -124,7 +125,7 @@ def _elevation(member: MemberDrawing, scale: float, head: tuple[float, float]) -
 def _hole_marks(shape: MemberShape, view: View) -> list[tuple[float, str]]:
     """Give the running dimensions of the holes along the part, from its start."""
     start = float(shape.outline[:, 0].min())
-    places = np.unique([start, *(hole.x for hole in shape.holes)]).tolist() if shape.holes else []
+    places = np.unique(np.round([start, *(hole.x for hole in shape.holes)], 6)).tolist() if shape.holes else []
     return [(_along(view, x), length_text(x - start)) for x in places]
 
 
@@ -140,7 +141,7 @@ def _level(member: MemberDrawing, side: int, length: str) -> Floats:
     y = side * member.shape.outline[:, 1]
     x = member.shape.outline[y > y.max() - _LEVEL, 0]
     off = np.abs(x[None] - x[:, None] - float(length))
-    return x[list(np.unravel_index(np.argmin(off), off.shape))]
+    return x[list(np.unravel_index(first_least(off.ravel()), off.shape))]
 
 
 def _spans_above(member: MemberDrawing, view: View) -> list[Span]:
@@ -175,8 +176,8 @@ def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item
     tip, low = float((outline[:, 0] * way).min()) * way, float(outline[:, 1].min())
     view = View(scale, np.array([tip, low]), at)
     reach = min(_END_SHARE * _depth(member), 0.45 * member.shape.cut_length)
-    holes = [hole for hole in member.shape.holes if hole.face == "front" and (hole.x - tip) * way < reach]
-    near = np.array([*outline[(outline[:, 0] - tip) * way < reach], *((hole.x, hole.y) for hole in holes)])
+    holes = [hole for hole in member.shape.holes if hole.face == "front" and (hole.x - tip) * way < reach - NOISE]
+    near = np.array([*outline[(outline[:, 0] - tip) * way < reach - NOISE], *((hole.x, hole.y) for hole in holes)])
     x, y = (np.unique(places.round(6)) for places in ((near[:, 0] - tip) * way, near[:, 1] - low))
     side = Side(at, np.array([0.0, 1.0]), np.array([-float(way), 0.0]))
     foot = Side(at, np.array([float(way), 0.0]), np.array([0.0, -1.0]))
@@ -197,7 +198,8 @@ def _end(member: MemberDrawing, scale: float, at: Floats, way: int) -> list[Item
 def _clipped(view: View, outline: Floats, x: float) -> list[Item]:
     """Draw what lies on the outline's nearer side of x; the break there is a thin line."""
     low, high = outline.min(axis=0) - 1.0, outline.max(axis=0) + 1.0
-    kept = shapely.box(low[0], low[1], x, high[1]) if x - low[0] < high[0] - x else shapely.box(x, low[1], *high)
+    at_start = x - low[0] < high[0] - x - NOISE
+    kept = shapely.box(low[0], low[1], x, high[1]) if at_start else shapely.box(x, low[1], *high)
     edges = shapely.get_parts(shapely.line_merge(kept.intersection(shapely.LinearRing(outline))))
     cut = shapely.get_coordinates(
         shapely.Polygon(outline).intersection(shapely.LineString([(x, low[1]), (x, high[1])]))

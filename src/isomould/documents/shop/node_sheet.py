@@ -32,6 +32,7 @@ from isomould.documents.table import Table
 from isomould.parts.details.joint import Fin
 from isomould.parts.sections import Polygons, SolidViews
 from isomould.parts.supports import Base
+from isomould.ties import FINE, NOISE
 
 _STUB, _BALLOON = 15.0, 3.0
 """Length of an arm's line beyond the solid, and radius of the circle around its number, mm on paper."""
@@ -99,7 +100,7 @@ def _fitted(node: NodeDrawing, box: Floats) -> tuple[float, list[Item]]:
     """Draw section and plan at the largest scale at which both fit a box (2, 2) above each other, in its middle."""
     space = np.ptp(box, axis=0)
     drawn = ((scale, _views(node, scale)) for scale in SCALES)
-    fits = (way for way in drawn if way[0] == SCALES[-1] or (np.ptp(bounds(way[1]), axis=0) <= space).all())
+    fits = (way for way in drawn if way[0] == SCALES[-1] or (np.ptp(bounds(way[1]), axis=0) <= space + NOISE).all())
     scale, items = next(fits)
     (left, _), (right, top) = bounds(items)
     return scale, moved(items, np.array([(box[:, 0].sum() - left - right) / 2, box[1, 1] - top]))
@@ -147,7 +148,7 @@ def _section(node: NodeDrawing, view: View) -> list[Item]:
 
 def _fin(fin: Fin, elevation: float, view: View) -> list[Item]:
     """Draw the fin of arm 1 behind the plane of the section, with its holes."""
-    side = np.array([1.0, -1.0 if elevation < 0 else 1.0])
+    side = np.array([1.0, -1.0 if elevation < -FINE else 1.0])
     outline = view.outline(_upright(np.array(fin.corners) * side, elevation))
     items: list[Item] = [outline]
     for hole in fin.holes:

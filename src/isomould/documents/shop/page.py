@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Floats, read_only
+from isomould.ties import FINE
 
 Pen = Literal["outline", "hidden", "centre", "thin", "frame"]
 """Visible outlines; hidden ones; centre and system lines; dimensions, hatching and tables; the frame (ISO 128)."""
@@ -130,6 +131,6 @@ def reading(angle: float) -> float:
     >>> print(round(reading(np.pi), 6), round(reading(1.6), 6), round(reading(-1.5), 6))
     0.0 1.6 1.641593
     """
-    turned = float(np.mod(angle, 2 * np.pi))
-    turned = turned - 2 * np.pi if turned > _FLIP + np.pi else turned
-    return turned if turned <= _FLIP else turned - np.pi
+    turned = round(float(np.mod(angle, 2 * np.pi)), 12)  # level is level, and not a hair below it
+    turned = turned - 2 * np.pi if turned > _FLIP + np.pi + FINE else turned
+    return (turned if turned <= _FLIP + FINE else turned - np.pi) + 0.0

@@ -14,6 +14,7 @@ from isomould.documents.shop.page import LARGE, NORMAL, SMALL, SMALLEST, Arc, It
 from isomould.documents.shop.placing import Waiting, Wish, bounds, collide, place_or_wait
 from isomould.documents.shop.rows import Row, length_text
 from isomould.documents.shop.view import ENLARGED, SCALES, View, middle
+from isomould.ties import NOISE, first_least, in_order
 
 _AROUND = 13.5
 """What one row of dimensions takes beside the outline, mm."""
@@ -54,7 +55,8 @@ def fitted_view(panel: PanelDrawing, box: Floats) -> tuple[float, Placed]:
         Drawn as near to the middle of the box as can be; what found no room.
     """
     space, extent = np.ptp(box, axis=0), np.ptp(panel.outline, axis=0)
-    rough = [scale for scale in (*ENLARGED, *SCALES) if (extent / scale + 2 * _AROUND <= space).all()] or SCALES[-1:]
+    room = space - 2 * _AROUND + NOISE
+    rough = [scale for scale in (*ENLARGED, *SCALES) if (extent / scale <= room).all()] or SCALES[-1:]
     drawn = ((scale, _draw(panel, View(scale, middle(panel.outline), middle(box)))) for scale in rough)
     scale, (items, waiting) = next(way for way in drawn if way[0] == rough[-1] or _fits(way[1][0], space))
     low, high = box - bounds(items)
@@ -63,7 +65,7 @@ def fitted_view(panel: PanelDrawing, box: Floats) -> tuple[float, Placed]:
 
 
 def _fits(items: Sequence[Item], space: Floats) -> bool:
-    return bool((np.ptp(bounds(items), axis=0) <= space).all())
+    return bool((np.ptp(bounds(items), axis=0) <= space + NOISE).all())
 
 
 def _draw(panel: PanelDrawing, view: View) -> Placed:
@@ -94,7 +96,7 @@ def _sides(panel: PanelDrawing, view: View) -> Iterator[Dimension]:
     along = way / length[:, None]
     away = np.stack([along[:, 1], -along[:, 0]], axis=1)
     texts = side_texts(panel)
-    for k in np.argsort(-length, kind="stable").tolist():
+    for k in in_order(-length).tolist():
         yield Side(start[k], along[k], away[k]), Span(0.0, float(length[k]), texts[k]), _OUTER
 
 
@@ -162,7 +164,7 @@ def _near_corner(points: Floats, k: int, text: str, reaches: Sequence[float]) ->
     for reach in reaches:
         for turn in (start, start + 0.35, start - 0.35):
             middle_of = points[k] + reach * np.array([np.cos(turn), np.sin(turn)])
-            if np.argmin(np.linalg.norm(points - middle_of, axis=1)) == k:
+            if first_least(np.linalg.norm(points - middle_of, axis=1)) == k:
                 yield Text(text, point(middle_of - np.array([0.0, SMALLEST / 2])), SMALLEST, "middle")
 
 

@@ -13,6 +13,7 @@ from isomould.documents.shop.placing import Waiting, led, place_all
 from isomould.documents.shop.title_block import Stationery, room
 from isomould.documents.shop.view import View, fit_scale, middle, scale_text
 from isomould.form.mesh import Mesh
+from isomould.ties import first_largest
 
 VIEWS = (("Plan", (0, 1)), ("Elevation (x to the right, z up)", (0, 2)))
 """What views are called, and which coordinates they show to the right and up."""
@@ -115,4 +116,4 @@ def _number_places(mesh: Mesh, places: Floats, line: tuple[int, int]) -> list[Te
 def _outermost(at: Floats) -> list[tuple[Floats, Floats]]:
     """Give the nodes of a line furthest to the right and to the left, each with that direction."""
     ways = [np.array([side, 0.0]) for side in (1.0, -1.0)]
-    return [(at[int(np.argmax(at @ way))], way) for way in ways]
+    return [(at[first_largest(at @ way)], way) for way in ways]

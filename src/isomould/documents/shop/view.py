@@ -8,6 +8,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.documents.numbers import format_number
 from isomould.documents.shop.page import Line, Paper, Pen
+from isomould.ties import NOISE
 
 SCALES = (1.0, 2.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0)
 """Model millimetres per millimetre on paper: those of the standard, and steps between that fill sheets better."""
@@ -28,8 +29,8 @@ class View:
     at: Floats
 
     def place(self, points: Floats) -> Floats:
-        """Give the places (…, 2) on paper of model points (…, 2)."""
-        return (points - self.centre) / self.scale + self.at
+        """Give the places (…, 2) on paper of model points (…, 2), rounded so that noise decides nothing there."""
+        return np.round((points - self.centre) / self.scale + self.at, 6) + 0.0
 
     def outline(self, points: Floats, pen: Pen = "outline") -> Line:
         """Draw a closed outline (n, 2)."""
@@ -46,7 +47,8 @@ def fit_scale(extent: tuple[float, float] | Floats, room: tuple[float, float]) -
     >>> fit_scale((2400.0, 200.0), (220.0, 60.0))
     15.0
     """
-    fitting = (scale for scale in SCALES if extent[0] / scale <= room[0] and extent[1] / scale <= room[1])
+    width, height = room[0] + NOISE, room[1] + NOISE
+    fitting = (scale for scale in SCALES if extent[0] / scale <= width and extent[1] / scale <= height)
     return next(fitting, SCALES[-1])
 
 
