@@ -1,11 +1,15 @@
 """What commands share: how they print, tell their progress, and are told to end."""
 
+import os
 import signal
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 
 import click
 from rich.console import Console
+
+_STDOUT, _STDERR = 1, 2
 
 INTERRUPTED = 130
 """The exit code after Ctrl-C."""
@@ -14,6 +18,24 @@ INTERRUPTED = 130
 def console() -> Console:
     """Give the console of the output."""
     return Reader(highlight=False, soft_wrap=False)
+
+
+def keep_stdout_for_results() -> None:
+    """Let only the program itself write to stdout: what libraries print there by themselves goes to stderr.
+
+    Native code writes to file descriptor 1 whatever Python's `sys.stdout` is. So the program keeps a copy of that
+    descriptor for itself and its own stream, and number 1 becomes another name of stderr, in worker processes too.
+    """
+    stream = sys.stdout
+    try:
+        native = stream.fileno() == _STDOUT
+    except (OSError, ValueError, AttributeError):
+        return  # captured by a test, a notebook or a service without a console: there is nothing to guard
+    if native:
+        stream.flush()
+        own = os.dup(_STDOUT)
+        os.dup2(_STDERR, _STDOUT)
+        sys.stdout = open(own, "w", encoding=stream.encoding, errors=stream.errors)  # noqa: PTH123, SIM115
 
 
 def say(text: str) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from isomould.cli.console import INTERRUPTED, catch_signals, warn
+from isomould.cli.console import INTERRUPTED, catch_signals, keep_stdout_for_results, warn
 from isomould.errors import IsomouldError, Refused
 
 _COMMANDS = {
@@ -53,6 +53,7 @@ def cli() -> None:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; every failure that users can meet is one message and an exit code."""
     catch_signals(_terminate, "SIGTERM", "SIGBREAK")
+    keep_stdout_for_results()
     code = _run(arguments)
     if code == INTERRUPTED:
         # Threads of a pool of workers may hold locks that the interrupt left closed: do not wait for them.

@@ -12,6 +12,7 @@ from isomould.arrays import Bools, Floats
 from isomould.nesting.bar_ladder import Ladder
 from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
+from isomould.nesting.solver import quiet_solver
 
 PULL = 0.8
 """Weight of the calm worths among those that are priced."""
@@ -37,7 +38,7 @@ class Programme:
     costs: Floats
     top: float
     calm: Floats
-    solver: Any = field(default_factory=highspy.Highs)
+    solver: Any = field(default_factory=quiet_solver)
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     known: set[tuple[int, bytes]] = field(default_factory=set[tuple[int, bytes]])
 
@@ -61,7 +62,6 @@ def make_programme(rack: BarRack, costs: Floats, first: Sequence[Pattern]) -> Pr
     top = float(costs.max())
     calm = rack.sizes.astype(np.float64) * float((costs / top / np.maximum(rack.rooms, 1)).min())
     programme = Programme(rack, costs / top, top, calm)
-    programme.solver.setOptionValue("output_flag", False)
     programme.solver.setOptionValue("threads", 1)
     programme.solver.setOptionValue("simplex_strategy", PRIMAL)
     for _ in range(len(rack.sizes)):

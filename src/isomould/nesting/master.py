@@ -16,6 +16,7 @@ import numpy as np
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.sheets import Frame, SheetPlan, Strip, strip_height, strip_parts
+from isomould.nesting.solver import quiet_solver
 
 Slot = tuple[int, bool, int]
 """Stock, whether turned, height in micrometres."""
@@ -41,7 +42,7 @@ class Master:
     """A growing programme; columns in the order in which the solver knows them."""
 
     counts: Ints
-    solver: Any = field(default_factory=highspy.Highs)
+    solver: Any = field(default_factory=quiet_solver)
     slots: dict[Slot, int] = field(default_factory=dict[Slot, int])
     heights: dict[Way, list[int]] = field(default_factory=dict[Way, list[int]])
     columns: list[Column] = field(default_factory=list[Column])
@@ -61,7 +62,6 @@ class Solution:
 def make_master(counts: Ints) -> Master:
     """Set up a programme with a row for every part and no column yet."""
     master = Master(counts)
-    master.solver.setOptionValue("output_flag", False)
     master.solver.setOptionValue("threads", 1)
     for count in counts.tolist():
         master.solver.addRow(float(count), highspy.kHighsInf, 0, [], [])
