@@ -1,16 +1,16 @@
 """From planned sheets to a layout: coordinates in mm, marks and locations, sheet numbers."""
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
-from isomould.arrays import Floats, Ints, read_only
+from isomould.arrays import Floats
 from isomould.nesting.bound import Bound, room_inside
 from isomould.nesting.layout import BLANK, CutTree, Id, Layout, Placement, Sheet, Unplaced
-from isomould.nesting.placing import Placed, Saw, map_tree, place
+from isomould.nesting.placing import Laid, Placed, Saw, map_tree, place
 from isomould.nesting.rack import PartClass, box
 from isomould.nesting.settings import StockSettings
 from isomould.nesting.shapes import UM, round_away
@@ -42,7 +42,10 @@ class Filling:
 def fill_stock(plans: Sequence[SheetPlan], classes: Sequence[PartClass], stock: StockSettings) -> Filling:
     """Give the planned stock sheets their coordinates."""
     queues = [deque(kind.pieces) for kind in classes]
-    return Filling(tuple(_stock_sheet(plan, queues, stock) for plan in plans), _left(queues, classes))
+    different = {id(plan): plan for plan in plans}
+    laid = {key: _laid(plan, stock) for key, plan in different.items()}
+    filled = [_stock_sheet(plan, laid[id(plan)], queues, stock) for plan in plans]
+    return Filling(tuple(filled), _left(queues, classes))
 
 
 def fill_blanks(plans: Sequence[SheetPlan], classes: Sequence[PartClass], stock: StockSettings) -> Filling:
@@ -55,10 +58,16 @@ def _left(queues: Sequence[deque[Piece]], classes: Sequence[PartClass]) -> tuple
     return tuple((piece, kind.outline) for queue, kind in zip(queues, classes, strict=True) for piece in queue)
 
 
-def _stock_sheet(plan: SheetPlan, queues: Sequence[deque[Piece]], stock: StockSettings) -> Filled:
+def _laid(plan: SheetPlan, stock: StockSettings) -> Laid:
+    """Place a plan on its stock sheet; equal sheets share what comes of it."""
     sheet = stock.sheets[plan.frame.stock]
     room = room_inside(sheet.width, sheet.height, stock.trim)
-    placed, tree = _moved(plan, stock, room.height if plan.frame.turned else room.width)
+    return _moved(plan, stock, room.height if plan.frame.turned else room.width)
+
+
+def _stock_sheet(plan: SheetPlan, laid: Laid, queues: Sequence[deque[Piece]], stock: StockSettings) -> Filled:
+    sheet = stock.sheets[plan.frame.stock]
+    placed, tree = laid
     return Filled(sheet.name, sheet.width, sheet.height, _marked(placed, queues), tree, sheet.price)
 
 
@@ -72,7 +81,7 @@ def _marked(placed: Sequence[Placed], queues: Sequence[deque[Piece]]) -> tuple[t
     return tuple((queues[item.part].popleft(), item) for item in placed)
 
 
-def _moved(plan: SheetPlan, stock: StockSettings, length: int) -> tuple[list[Placed], CutTree]:
+def _moved(plan: SheetPlan, stock: StockSettings, length: int) -> Laid:
     """Place a plan and move it inside the trim; the tree in mm."""
     trim = round_away(stock.trim * UM)
     saw = Saw(stock.gap * UM, round_away(stock.gap * UM), flips=stock.turning != "none")
@@ -106,11 +115,7 @@ def make_layout(fillings: Sequence[Filling], bound: Bound, *, ended: bool) -> La
 
 
 def _placement(sheet: str, piece: Piece, placed: Placed) -> Placement:
-    return Placement(*piece, sheet, read_only(_mm(placed.points)), placed.rotation_deg, placed.turned_over)
-
-
-def _mm(points: Ints) -> Floats:
-    return points / UM
+    return Placement(*piece, sheet, placed.points_mm, placed.rotation_deg, placed.turned_over)
 
 
 def _unplaced(piece: Piece, outline: Floats) -> Unplaced:
@@ -126,5 +131,8 @@ def _number_trees(sheets: Sequence[Sheet], filled: Sequence[Filled]) -> dict[str
 def yield_percent(sheets: Sequence[Sheet], placements: Sequence[Placement]) -> float:
     """Give the true area of the parts as a percentage of the area of the sheets."""
     area = sum(sheet.width * sheet.height for sheet in sheets)
-    used = float(sum(shapely.Polygon(item.points).area for item in placements))
+    # Equal sheets share the points of their placements.
+    times = Counter(id(item.points) for item in placements)
+    different = {id(item.points): item.points for item in placements}
+    used = sum(times[key] * shapely.Polygon(points).area for key, points in different.items())
     return 100 * used / area if area else 0.0

@@ -1,6 +1,7 @@
 """Lower bounds for the number of sheets that hold for any nesting, whatever its patterns."""
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,9 @@ from isomould.arrays import Floats
 from isomould.nesting.layout import BoundKind
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away
+
+NODES = 10_000
+"""Nodes of the integer programme that shares parts out among several sizes."""
 
 
 @dataclass(frozen=True)
@@ -48,10 +52,16 @@ def bound_stock(parts: Sequence[shapely.Polygon], stock: StockSettings) -> Bound
 def _needs(parts: Sequence[shapely.Polygon], stock: StockSettings) -> dict[tuple[bool, ...], float]:
     """Give the dilated area of the parts that fit just the same sizes, by those."""
     groups = dict[tuple[bool, ...], list[shapely.Polygon]]()
+    held = {id(part): _holding(part, stock) for part in {id(part): part for part in parts}.values()}
     for part in parts:
-        outline = shapely.get_coordinates(part.exterior)
-        groups.setdefault(tuple(fits(outline, sheet, stock) for sheet in stock.sheets), []).append(part)
+        groups.setdefault(held[id(part)], []).append(part)
     return {sizes: dilated_area(group, stock.gap) for sizes, group in groups.items()}
+
+
+def _holding(part: shapely.Polygon, stock: StockSettings) -> tuple[bool, ...]:
+    """Tell of every size whether it holds a part."""
+    outline = shapely.get_coordinates(part.exterior)
+    return tuple(fits(outline, sheet, stock) for sheet in stock.sheets)
 
 
 def _least(needs: Mapping[tuple[bool, ...], float], stock: StockSettings, cost: Sequence[float]) -> float:
@@ -62,8 +72,10 @@ def _least(needs: Mapping[tuple[bool, ...], float], stock: StockSettings, cost: 
     most = np.array([np.inf if sheet.quantity is None else float(sheet.quantity) for sheet in stock.sheets])
     whole = np.ones(len(rooms), dtype=np.int64)
     asked = LinearConstraint(np.array(rows), np.array(least), np.inf)
-    found = milp(np.array(cost), integrality=whole, bounds=Bounds(np.zeros(len(most)), most), constraints=asked)
-    return float(found.fun or 0.0)
+    limits = Bounds(np.zeros(len(most)), most)
+    found = milp(np.array(cost), integrality=whole, bounds=limits, constraints=asked, options={"node_limit": NODES})
+    # What the best found costs may be more than the least by the solver's tolerance: that is no bound.
+    return float(found.mip_dual_bound or 0.0)
 
 
 def too_few(parts: Sequence[shapely.Polygon], stock: StockSettings) -> tuple[float, float] | None:
@@ -121,8 +133,14 @@ def sheets_for(need: float, area: float) -> int:
 
 
 def dilated_area(parts: Sequence[shapely.Polygon], gap: float) -> float:
-    """Give the area of parts grown by half the gap, into their holes too; arcs are replaced by chords inside them."""
-    return float(shapely.area(shapely.buffer(np.array(parts), gap / 2, quad_segs=32)).sum())
+    """Give the area of parts grown by half the gap, into their holes too; arcs are replaced by chords inside them.
+
+    A polygon that comes many times, as one object, is grown once.
+    """
+    times = Counter(map(id, parts))
+    different = {id(part): part for part in parts}
+    areas = shapely.area(shapely.buffer(np.array(list(different.values())), gap / 2, quad_segs=32))
+    return float(areas @ np.array([times[key] for key in different]))
 
 
 def grown_rectangle(width: float, height: float, gap: float) -> float:

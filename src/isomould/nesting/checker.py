@@ -1,7 +1,7 @@
 """Proves a layout of sheets in float64, apart from the search that made it."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -13,6 +13,7 @@ from isomould.arrays import Floats, Ints
 from isomould.nesting.cut_checker import replay, sheet_inside, stands_out
 from isomould.nesting.layout import BLANK, CutTree, Layout, Part, Placement, Sheet
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
+from isomould.nesting.twins import first_twins, without_twins
 
 TOLERANCE = 1e-6
 """mm; by so much may a gap fall short or a vertex stand out of its sheet."""
@@ -28,19 +29,35 @@ class Finding:
     limit: str
 
 
+_Check = Callable[[Sequence[Part], StockSettings, Layout], Iterator[Finding]]
+
+
 def check_layout(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> tuple[Finding, ...]:
     """Prove that a layout cuts the parts as asked from the stock.
 
     Returns
     -------
     tuple of Finding
-        Empty if the layout is proved. Gaps and edges hold to 1e-6 mm; everything else is exact.
+        Empty if the layout is proved. Gaps and edges hold to 1e-6 mm; everything else is exact. Of sheets that are
+        alike in every number the first is proved.
     """
-    for checks in _STAGES:
-        findings = tuple(finding for check in checks for finding in check(parts, stock, layout))
-        if findings:
-            return findings
-    return ()
+    findings = _found(_NAMES, parts, stock, layout)
+    if findings:
+        return findings
+    different = without_twins(layout, first_twins(layout, {part.id: _form(part) for part in parts}))
+    return _found((_check_transforms,), parts, stock, different) or _found(_WHOLE, parts, stock, layout) + _found(
+        _SHEET_BY_SHEET, parts, stock, different
+    )
+
+
+def _found(
+    checks: Sequence[_Check], parts: Sequence[Part], stock: StockSettings, layout: Layout
+) -> tuple[Finding, ...]:
+    return tuple(finding for check in checks for finding in check(parts, stock, layout))
+
+
+def _form(part: Part) -> tuple[int, bytes]:
+    return len(part.outline), part.outline.tobytes()
 
 
 def _check_names(parts: Sequence[Part], _: StockSettings, layout: Layout) -> Iterator[Finding]:
@@ -188,7 +205,7 @@ def _close_pairs(pieces: Any, gap: float) -> Iterator[tuple[int, int, float]]:
 
 def _check_areas(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
     sheet_area = sum(sheet.width * sheet.height for sheet in layout.sheets)
-    part_area = sum(shapely.Polygon(item.points).area for item in layout.placements)
+    part_area = _area([item.points for item in layout.placements])
     percent = 100 * part_area / sheet_area if sheet_area else 0.0
     if abs(percent - layout.yield_percent) > 1e-9 * 100:
         yield Finding("N-AREA-01", "yield", f"{layout.yield_percent!r} %", f"{percent!r} %")
@@ -202,6 +219,14 @@ def _check_areas(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Ite
     largest = max((sheet.width * sheet.height for sheet in layout.sheets), default=0.0)
     if part_area > len(layout.sheets) * largest * (1 + 1e-12):
         yield Finding("N-AREA-03", "part area", f"{part_area:g} mm2", f"{len(layout.sheets)} sheets")
+
+
+def _area(rings: Sequence[Floats]) -> float:
+    """Give the area of all rings, mm²."""
+    if not rings:
+        return 0.0
+    owner = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    return float(shapely.area(shapely.polygons(shapely.linearrings(np.concatenate(rings), indices=owner))).sum())
 
 
 def _check_offcut(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
@@ -220,10 +245,9 @@ def _check_offcut(_: Sequence[Part], stock: StockSettings, layout: Layout) -> It
     if not room.buffer(TOLERANCE).covers(rectangle):
         yield Finding("N-OFFCUT-02", f"offcut of {sheet.id}", str(rectangle), "inside the trim")
     clear = max(stock.kerf / 2 - 2 * TOLERANCE, 0.0)
-    for item in layout.placements:
+    for item in (item for item in layout.placements if item.sheet == sheet.id):
         polygon = shapely.Polygon(item.points)
-        near = polygon.distance(rectangle) < clear or polygon.intersection(rectangle).area > TOLERANCE
-        if item.sheet == sheet.id and near:
+        if polygon.distance(rectangle) < clear or polygon.intersection(rectangle).area > TOLERANCE:
             yield Finding("N-OFFCUT-03", f"offcut of {sheet.id}", f"part {item.id} reaches into it", "free of parts")
 
 
@@ -259,18 +283,11 @@ def _check_tree(
             yield Finding("N-CUT-03", f"part {item.id} on {sheet}", f"cut into by {out:.6f} mm", "cut free whole")
 
 
-_STAGES = (
-    (_check_names,),
-    (_check_transforms,),
-    (
-        _check_quantities,
-        _check_locations,
-        _check_stock,
-        _check_edges,
-        _check_gaps,
-        _check_areas,
-        _check_offcut,
-        _check_cuts,
-    ),
-)
-"""Later stages may take for granted what the earlier ones have proved."""
+_NAMES: tuple[_Check, ...] = (_check_names,)
+"""What all other checks take for granted."""
+
+_WHOLE: tuple[_Check, ...] = (_check_quantities, _check_locations, _check_stock, _check_areas, _check_offcut)
+"""Checks of the layout as a whole."""
+
+_SHEET_BY_SHEET: tuple[_Check, ...] = (_check_edges, _check_gaps, _check_cuts)
+"""Checks that hold for a sheet if they hold for its twin, once parts are known to be those of the list."""

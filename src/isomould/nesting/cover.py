@@ -1,5 +1,6 @@
 """Sheets filled one after another until all is placed: the cover that every search starts from and works with."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -47,9 +48,23 @@ def fill_sheets(rack: Rack, counts: Ints, values: Floats, limit: float = np.inf)
         best = _best_sheet([frame for frame in frames if left[frame.stock] > 0], counts, values, rack)
         if best is None:
             break
-        plans.append(best)
-        counts = counts - pieces_of([best], len(counts))
+        again = _times(best, counts, left[best.frame.stock], limit - cost_of(plans))
+        plans += [best] * again
+        counts = counts - again * pieces_of([best], len(counts))
     return plans
+
+
+def _times(plan: SheetPlan, counts: Ints, stock: int, budget: float) -> int:
+    """Tell how often the best sheet may be cut: it stays the best as long as there are pieces for another."""
+    at_most = min(times_of(plan, counts), stock)
+    return at_most if budget == np.inf else min(at_most, 1 + int(budget / plan.frame.cost))
+
+
+def times_of(plan: SheetPlan, counts: Ints) -> int:
+    """Tell for how many sheets there are pieces."""
+    uses = pieces_of([plan], len(counts))
+    used = uses > 0
+    return int((counts[used] // uses[used]).min())
 
 
 def _best_sheet(frames: Sequence[Frame], counts: Ints, values: Floats, rack: Rack) -> SheetPlan | None:
@@ -73,5 +88,9 @@ def area_of(rack: Rack, plan: SheetPlan) -> float:
 
 
 def pieces_of(plans: Sequence[SheetPlan], parts: int) -> Ints:
-    """Count the pieces of every part on some sheets."""
-    return np.bincount([part for plan in plans for part in plan.parts], minlength=parts)
+    """Count the pieces of every part on some sheets; a plan that comes many times is counted once."""
+    times = Counter(map(id, plans))
+    total = np.zeros(parts, dtype=np.int64)
+    for plan in {id(plan): plan for plan in plans}.values():
+        np.add.at(total, plan.parts, times[id(plan)])
+    return total

@@ -4,6 +4,7 @@ from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import groupby
 
 import numpy as np
 
@@ -41,8 +42,11 @@ Crew = Callable[[Sequence[Order]], list[list[SheetPlan]]]
 _Name = tuple[int, int]
 """Part and rotation: an item of a frame."""
 
-_Told = list[tuple[int, tuple[tuple[tuple[_Name, ...], ...], ...]]]
-"""Frame and strips of every sheet; strips are blocks, blocks items by their names."""
+_Strips = tuple[tuple[tuple[_Name, ...], ...], ...]
+"""Strips are blocks, blocks items by their names."""
+
+_Told = list[tuple[int, _Strips, int]]
+"""Frame and strips of every sheet, and how often it comes: equal sheets stay one plan."""
 
 
 @contextmanager
@@ -75,10 +79,11 @@ def _learn(rack: Rack) -> None:
 def _report(order: Order) -> _Told:
     rack = _KNOWN["rack"]
     places = {(frame.stock, frame.turned): number for number, frame in enumerate(rack.frames)}
-    return [(places[plan.frame.stock, plan.frame.turned], _named(plan)) for plan in _fill(rack, order)]
+    runs = [list(equal) for _, equal in groupby(_fill(rack, order), key=id)]
+    return [(places[run[0].frame.stock, run[0].frame.turned], _named(run[0]), len(run)) for run in runs]
 
 
-def _named(plan: SheetPlan) -> tuple[tuple[tuple[_Name, ...], ...], ...]:
+def _named(plan: SheetPlan) -> _Strips:
     runs: list[Run] = [strip for strip in plan.strips if isinstance(strip, tuple)]
     return tuple(tuple(tuple(map(_name, block)) for block in run) for run in runs)
 
@@ -88,10 +93,10 @@ def _name(item: Item) -> _Name:
 
 
 def _understand(rack: Rack, told: _Told) -> list[SheetPlan]:
-    return [_plan(rack, number, strips) for number, strips in told]
+    return [plan for number, strips, times in told for plan in [_plan(rack, number, strips)] * times]
 
 
-def _plan(rack: Rack, number: int, strips: tuple[tuple[tuple[_Name, ...], ...], ...]) -> SheetPlan:
+def _plan(rack: Rack, number: int, strips: _Strips) -> SheetPlan:
     frame = rack.frames[number]
     named = frame.named
     return SheetPlan(frame, tuple(tuple(tuple(named[name] for name in block) for block in run) for run in strips))

@@ -1,5 +1,6 @@
 """What the cutting of a layout comes to: number and length of the cuts, and the largest offcut in one piece."""
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -9,12 +10,14 @@ from isomould.arrays import Floats
 from isomould.nesting.cut_checker import Replay, replay, sheet_inside
 from isomould.nesting.layout import Layout, Offcut
 from isomould.nesting.settings import StockSettings
+from isomould.nesting.twins import first_twins
 
 
 def measure_cuts(layout: Layout, stock: StockSettings) -> Layout:
     """Add cuts, their length, the largest rectangle left over, and the yield that credits it."""
-    found = {name: _replay(layout, name, stock) for name in layout.cut_trees}
-    lengths = [length for one in found.values() for length in one.cuts]
+    firsts = first_twins(layout, {})
+    times = Counter(firsts[name] for name in layout.cut_trees)
+    found = {name: _replay(layout, name, stock) for name in times}
     offcut = max(
         (piece for name, one in found.items() for piece in _offcuts(name, one)),
         key=lambda piece: piece.width * piece.height,
@@ -24,7 +27,11 @@ def measure_cuts(layout: Layout, stock: StockSettings) -> Layout:
     spared = offcut.width * offcut.height if offcut else 0.0
     credited = layout.yield_percent * bought / (bought - spared) if bought else 0.0
     return replace(
-        layout, cuts=len(lengths), cut_length=sum(lengths), offcut=offcut, yield_with_offcut_percent=credited
+        layout,
+        cuts=sum(times[name] * len(one.cuts) for name, one in found.items()),
+        cut_length=sum(times[name] * sum(one.cuts) for name, one in found.items()),
+        offcut=offcut,
+        yield_with_offcut_percent=credited,
     )
 
 

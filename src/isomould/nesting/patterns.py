@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 
 from isomould.arrays import Floats, Ints
-from isomould.nesting.cover import Rack, cost_of, pieces_of
+from isomould.nesting.cover import Rack, cost_of, pieces_of, times_of
 from isomould.nesting.crew import Crew
 from isomould.nesting.search import Found, Search
 from isomould.nesting.sheets import Frame, SheetPlan, Zone, take_once
@@ -23,6 +23,12 @@ from isomould.nesting.strips import Priced, price, trace
 
 FEW = 60
 """Classes up to which whole sheets pay."""
+
+FEW_OF_MANY = 150
+"""The same where there are very many pieces."""
+
+VERY_MANY = 30
+"""Pieces of a class from which there are."""
 
 MANY = 6
 """Pieces of a class from which they do."""
@@ -45,7 +51,8 @@ NOISE = 1e-12
 
 def worth_trying(counts: Ints) -> bool:
     """Tell whether there are few enough classes with enough pieces for whole sheets to pay."""
-    return 0 < len(counts) <= FEW and float(counts.mean()) >= MANY
+    pieces = float(counts.mean()) if len(counts) else 0.0
+    return pieces >= MANY and len(counts) <= (FEW_OF_MANY if pieces >= VERY_MANY else FEW)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +112,7 @@ def _put_on_top(heights: Ints, worth: Floats, best: Floats, last: Ints, levels: 
 
 def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, _: Crew) -> Found:
     """Better a first filling, for stock without limits."""
-    plans, mean = first, np.zeros(0)
+    plans, mean = list({id(plan): plan for plan in first}.values()), np.zeros(0)
     for done in range(ROUNDS):
         if task.stops or len(first) <= rack.goal:
             return Found(first, not task.stops)
@@ -149,9 +156,16 @@ def _whole(plans: Sequence[SheetPlan], counts: Ints, first: list[SheetPlan]) -> 
     if found.x is None:
         return first
     left = counts.copy()
-    chosen = np.repeat(np.arange(len(plans)), np.rint(found.x).astype(np.int64))
-    sheets = [_cut_down(plans[k], left) for k in chosen.tolist()]
+    times = np.rint(found.x).astype(np.int64).tolist()
+    sheets = [sheet for plan, many in zip(plans, times, strict=True) for sheet in _cut_often(plan, many, left)]
     return min(first, [sheet for sheet in sheets if sheet.strips], key=cost_of)
+
+
+def _cut_often(plan: SheetPlan, times: int, left: Ints) -> list[SheetPlan]:
+    """Cut a sheet many times, whole as long as there are pieces for it, and count these off `left`."""
+    whole = min(times, times_of(plan, left)) if times else 0
+    left -= whole * pieces_of([plan], len(left))
+    return [plan] * whole + [_cut_down(plan, left) for _ in range(times - whole)]
 
 
 def _cut_down(plan: SheetPlan, left: Ints) -> SheetPlan:

@@ -7,13 +7,14 @@ from edge to edge.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints
+from isomould.arrays import Floats, Ints, read_only
 from isomould.nesting.layout import CutTree
-from isomould.nesting.shapes import Shape, advance, rotate, turn_half
+from isomould.nesting.shapes import UM, Shape, advance, rotate, turn_half
 from isomould.nesting.sheets import Run, SheetPlan, Strip, Zone, strip_height
 from isomould.nesting.strips import Block
 
@@ -28,6 +29,11 @@ class Placed:
     points: Ints
     rotation_deg: int
     turned_over: bool
+
+    @cached_property
+    def points_mm(self) -> Floats:
+        """The same in mm."""
+        return read_only(self.points / UM)
 
 
 @dataclass(frozen=True, eq=False)

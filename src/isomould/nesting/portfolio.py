@@ -15,6 +15,9 @@ PARTS = (24, 30)
 LOSS = 1.05
 """Sheets of a first filling over their bound from which stacking is what loses, so that it pays to plan it."""
 
+DIVED = 10_000
+"""Pieces up to which a dive pays: it sees every one of them."""
+
 
 def find_plans(rack: Rack, counts: Ints, task: Search) -> Found:
     """Place `counts` (parts,) pieces.
@@ -34,6 +37,8 @@ def _find(rack: Rack, counts: Ints, task: Search, crew: Crew) -> Found:
     if near or limited or task.effort == "quick":
         found = improve(rack, first, counts, task, crew)
         return found if limited or task.effort != "best" else _dive_on(rack, found, counts, task, crew)
+    if counts.sum() > DIVED and not patterns.worth_trying(counts):
+        return improve(rack, first, counts, task, crew)
     generate = patterns.find_sheets if patterns.worth_trying(counts) else dive.dive
     found = generate(rack, first, counts, task, crew)
     if not found.ended or task.effort != "best":

@@ -89,7 +89,7 @@ class Found:
 def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
     """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
-    total, windows = round(ROUNDS[task.effort] * len(plans)), _windows_at_once(rack, plans)
+    total, windows = round(ROUNDS[task.effort] * _different(plans)), _windows_at_once(rack, plans)
     for done in range(0, total, windows):
         if len(plans) <= rack.goal:
             break
@@ -100,19 +100,33 @@ def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew
     return Found(plans, ended=True)
 
 
+def _different(plans: Sequence[SheetPlan]) -> int:
+    """Count the sheets that are not cut like another: to fill a hundred equal ones anew is to fill one anew."""
+    return len({id(plan) for plan in plans})
+
+
 def first_sheets(rack: Rack, counts: Ints, task: Search, crew: Crew) -> list[SheetPlan]:
     """Fill pool by pool; once told to stop, small ones that are done in no time.
 
-    The fullest sheets of a pool stay. What lies on the others is drawn again, when there is more to choose from.
+    The fullest sheets of a pool stay, as many times as there are pieces for them. What lies on the others is drawn
+    again, when there is more to choose from.
     """
     plans: list[SheetPlan] = []
     left = counts
     while left.sum() > POOL and rack.stock.min() >= PLENTY and not task.stops:
         worth = rack.areas ** (1 + POOL_FAVOUR)
         filled = crew([Order(pool, worth, rack.stock) for pool in _pools(left, POOL)[:LANES]])
-        plans += [plan for made in filled for plan in _fullest(rack, made)]
-        left = counts - pieces_of(plans, len(counts))
+        full = [plan for made in filled for plan in _fullest(rack, made)]
+        full *= _times(full, left)
+        plans += full
+        left = left - pieces_of(full, len(counts))
     return _fill_up(rack, plans, left, task)
+
+
+def _times(plans: list[SheetPlan], left: Ints) -> int:
+    """Tell how often there are pieces for all of some sheets."""
+    uses = pieces_of(plans, len(left))
+    return int((left[uses > 0] // uses[uses > 0]).min())
 
 
 def _fill_up(rack: Rack, plans: list[SheetPlan], left: Ints, task: Search) -> list[SheetPlan]:
@@ -141,10 +155,11 @@ def _refill(
     rack: Rack, plans: list[SheetPlan], counts: Ints, chance: np.random.Generator, crew: Crew
 ) -> list[SheetPlan]:
     """Empty some sheets and fill them again with other worths, window by window; keep the better ones."""
-    windows = _windows(rack, plans, chance)
-    drawn = {id(plan) for window in windows for plan in window}
+    numbers = _windows(rack, plans, chance)
+    windows = [[plans[k] for k in window] for window in numbers]
+    drawn = {k for window in numbers for k in window}
     spare = without(rack, plans)
-    kept = [plan for plan in plans if id(plan) not in drawn]
+    kept = [plan for k, plan in enumerate(plans) if k not in drawn]
     missing = counts - pieces_of(plans, len(counts))
     orders = [_order(spare, window, missing * (k == 0), chance) for k, window in enumerate(windows)]
     for old, new in zip(windows, crew(orders), strict=True):
@@ -165,13 +180,13 @@ def _windows_at_once(rack: Rack, plans: Sequence[SheetPlan]) -> int:
     return WINDOWS if rack.stock.min() >= PLENTY and len(plans) > WINDOWS * WINDOW else 1
 
 
-def _windows(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -> list[list[SheetPlan]]:
-    """Draw sheets, the emptier the likelier."""
+def _windows(rack: Rack, plans: Sequence[SheetPlan], chance: np.random.Generator) -> list[list[int]]:
+    """Draw sheets, the emptier the likelier; their numbers."""
     waste = np.array([1 - area_of(rack, plan) / plan.frame.area for plan in plans])
     weight = np.maximum(waste, 0) ** 2 + 1e-3
     windows = _windows_at_once(rack, plans)
     drawn = chance.choice(len(plans), min(windows * WINDOW, len(plans)), replace=False, p=weight / weight.sum())
-    return [[plans[k] for k in sorted(drawn[first::windows].tolist())] for first in range(windows)]
+    return [sorted(drawn[first::windows].tolist()) for first in range(windows)]
 
 
 def _merit(rack: Rack, plans: Sequence[SheetPlan]) -> tuple[float, float, float]:

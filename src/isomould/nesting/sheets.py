@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from isomould.arrays import Floats, Ints
+from isomould.arrays import Floats, Ints, read_only
 from isomould.nesting.strips import Block, Item, Kind, Priced, price, trace
 
 LOOK_AHEAD = 3
@@ -63,10 +63,10 @@ class SheetPlan:
     frame: Frame
     strips: tuple[Strip, ...]
 
-    @property
-    def parts(self) -> list[int]:
+    @cached_property
+    def parts(self) -> Ints:
         """Index of every piece's part."""
-        return [part for strip in self.strips for part in strip_parts(strip)]
+        return read_only(np.array([part for strip in self.strips for part in strip_parts(strip)], dtype=np.int64))
 
 
 def narrow(frame: Frame, counts: Ints) -> Frame:
