@@ -11,6 +11,7 @@ from isomould.errors import Refused
 from isomould.nesting.bar_checker import check_bars
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import BarLayout, Member
+from isomould.nesting.search import Search
 from isomould.nesting.settings import BarStock, StockSettings
 
 STOCK = StockSettings(bars=(BarStock(section="P", length=6000),), bar_kerf=3, bar_trim=10)
@@ -41,7 +42,7 @@ def test_quick_effort_leaves_out_the_patterns_of_many_lengths() -> None:
     chance = np.random.default_rng(5)
     members = [Member(k, "P", float(x)) for k, x in enumerate(np.round(chance.uniform(1200, 3600, 120), 3))]
     stock = StockSettings(bars=(BarStock(section="P", length=6000),))
-    quick, normal = nest_bars(members, stock, "quick"), nest_bars(members, stock)
+    quick, normal = nest_bars(members, stock, Search("quick")), nest_bars(members, stock)
     assert check_bars(members, stock, quick) == ()
     assert quick.bound <= normal.bound == len(normal.bars) < len(quick.bars) <= 1.05 * quick.bound
 

@@ -12,6 +12,7 @@ from isomould.nesting.bar_ladder import Ladder, exact_ladder, grid, grid_step
 from isomould.nesting.bar_pricing import most_worth
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
 from isomould.nesting.layout import BoundKind
+from isomould.nesting.stop import Stops, never
 from isomould.ties import first_least
 
 ROUNDS = 60
@@ -59,13 +60,15 @@ class Demand:
 class Hint:
     """What a search knows: good patterns, worths (n,) of its sizes, and the cost that patterns can meet at best.
 
-    The worths are the `best` if they come from all patterns of the proof's own rack.
+    The worths are the `best` if they come from all patterns of the proof's own rack. A search that `stops` looks for no
+    better worths: what any worths prove holds.
     """
 
     patterns: Sequence[Pattern]
     worth: Floats | None = None
     enough: float = np.inf
     best: bool = False
+    stops: Stops = never
 
 
 def length_bound(proof: Proof, counts: Ints) -> BarBound:
@@ -101,8 +104,8 @@ def linear_bound(proof: Proof, hint: Hint, need: Need, known: BarBound, fineness
         found = _bounded(proof, need, known, [(worth, most_worth(rack, need, worth, ladder))])
         if hint.best or found[0].cost >= hint.enough:
             return found
-    worth = worth if worth is not None and hint.best else _worth(rack, need, rack.costs, hint.patterns, ladder)
-    worths = [worth, *([_worth(rack, need, ones, hint.patterns, ladder)] if len(ones) > 1 else [])]
+    worth = worth if worth is not None and hint.best else _worth(rack, need, rack.costs, hint, ladder)
+    worths = [worth, *([_worth(rack, need, ones, hint, ladder)] if len(ones) > 1 else [])]
     return _bounded(proof, need, known, [(worth, most_worth(rack, need, worth, ladder)) for worth in worths])
 
 
@@ -116,8 +119,8 @@ def _below(rack: BarRack, need: Need, fineness: int) -> tuple[BarRack, Ladder]:
     return rough, grid(rough, 1)
 
 
-def _worth(rack: BarRack, need: Need, costs: Floats, patterns: Sequence[Pattern], ladder: Ladder) -> Floats:
-    programme = make_programme(rack, costs, patterns)
+def _worth(rack: BarRack, need: Need, costs: Floats, hint: Hint, ladder: Ladder) -> Floats:
+    programme = make_programme(rack, costs, hint.patterns, hint.stops)
     return generate(programme, need, ROUNDS, ladder).proof
 
 

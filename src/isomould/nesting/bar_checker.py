@@ -1,14 +1,14 @@
 """Proves a layout of bars, apart from the search that made it."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
 import shapely
 
 from isomould.nesting.checker import TOLERANCE, Finding
-from isomould.nesting.layout import Bar, BarLayout, Cut, Member
+from isomould.nesting.layout import Bar, BarLayout, Cut, Id, Member
 from isomould.nesting.settings import StockSettings
 
 _HALF = 1e4
@@ -21,9 +21,21 @@ PRICE_TOLERANCE = 1e-6
 def check_bars(members: Sequence[Member], stock: StockSettings, layout: BarLayout) -> tuple[Finding, ...]:
     """Prove that a layout cuts the members as asked from the bars in stock; empty if it does."""
     findings = [*_check_quantities(members, layout), *_check_stock(stock, layout), *_check_bounds(stock, layout)]
-    for bar in layout.bars:
-        findings += [*_check_bar(bar, members, stock), *_check_lengths(bar, members)]
+    asked = {member.id: member for member in members}
+    for bar in _cut_differently(layout.bars):
+        findings += [*_check_bar(bar, asked, stock), *_check_lengths(bar, asked)]
     return tuple(findings)
+
+
+def _cut_differently(bars: Sequence[Bar]) -> Iterator[Bar]:
+    """Give the first of all bars that are cut alike, piece by piece: what holds for it holds for the others."""
+    known = set[object]()
+    for bar in bars:
+        cuts = tuple((cut.id, cut.start, cut.length, cut.turned) for cut in bar.cuts)
+        alike = bar.section, bar.length, bar.rest, cuts
+        if alike not in known:
+            known.add(alike)
+            yield bar
 
 
 def _check_quantities(members: Sequence[Member], layout: BarLayout) -> Iterator[Finding]:
@@ -51,10 +63,9 @@ def _check_stock(stock: StockSettings, layout: BarLayout) -> Iterator[Finding]:
             yield Finding("N-BAR-05", f"bar {section} {length:g} mm", f"{count} used", f"{kinds}")
 
 
-def _check_bar(bar: Bar, members: Sequence[Member], stock: StockSettings) -> Iterator[Finding]:
+def _check_bar(bar: Bar, asked: Mapping[Id, Member], stock: StockSettings) -> Iterator[Finding]:
     """Check trims, kerfs and the sum: last end + rest + trim = bar."""
-    outlines = {member.id: member.outline for member in members}
-    shapes = [_shape(cut, outlines.get(cut.id, ())) for cut in bar.cuts]
+    shapes = [_shape(cut, asked[cut.id].outline if cut.id in asked else ()) for cut in bar.cuts]
     for (one, a), (other, b) in combinations(zip(bar.cuts, shapes, strict=True), 2):
         if abs(other.start - one.start) < max(one.length, other.length) + stock.bar_kerf:
             clear = -1.0 if a.intersection(b).area > TOLERANCE * _HALF else float(a.distance(b))
@@ -84,12 +95,13 @@ def _shape(cut: Cut, outline: Sequence[tuple[float, float]]) -> shapely.Polygon:
     return shapely.Polygon(points - [low[0] - cut.start, (low[1] + high[1]) / 2])
 
 
-def _check_lengths(bar: Bar, members: Sequence[Member]) -> Iterator[Finding]:
-    asked = {member.id: (member.section, member.length) for member in members}
+def _check_lengths(bar: Bar, asked: Mapping[Id, Member]) -> Iterator[Finding]:
     for cut in bar.cuts:
-        if asked.get(cut.id) != (bar.section, cut.length):
+        member = asked.get(cut.id)
+        wanted = None if member is None else (member.section, member.length)
+        if wanted != (bar.section, cut.length):
             found = f"{bar.section}, {cut.length} mm"
-            yield Finding("N-BAR-09", f"bar {bar.id}, {cut.id}", found, f"{asked.get(cut.id)}")
+            yield Finding("N-BAR-09", f"bar {bar.id}, {cut.id}", found, f"{wanted}")
 
 
 def _check_bounds(stock: StockSettings, layout: BarLayout) -> Iterator[Finding]:

@@ -13,6 +13,7 @@ from isomould.nesting.bar_ladder import Ladder
 from isomould.nesting.bar_pricing import Values, price
 from isomould.nesting.bar_rack import BarRack, Need, Pattern
 from isomould.nesting.solver import quiet_solver
+from isomould.nesting.stop import Stops, never
 
 PULL = 0.8
 """Weight of the calm worths among those that are priced."""
@@ -38,6 +39,7 @@ class Programme:
     costs: Floats
     top: float
     calm: Floats
+    stops: Stops = never
     solver: Any = field(default_factory=quiet_solver)
     patterns: list[Pattern] = field(default_factory=list[Pattern])
     known: set[tuple[int, bytes]] = field(default_factory=set[tuple[int, bytes]])
@@ -57,11 +59,11 @@ class Shares:
     proof: Floats
 
 
-def make_programme(rack: BarRack, costs: Floats, first: Sequence[Pattern]) -> Programme:
+def make_programme(rack: BarRack, costs: Floats, first: Sequence[Pattern], stops: Stops = never) -> Programme:
     """Set up a programme from first patterns; the dearest kind of bar counts one."""
     top = float(costs.max())
     calm = rack.sizes.astype(np.float64) * float((costs / top / np.maximum(rack.rooms, 1)).min())
-    programme = Programme(rack, costs / top, top, calm)
+    programme = Programme(rack, costs / top, top, calm, stops)
     programme.solver.setOptionValue("threads", 1)
     programme.solver.setOptionValue("simplex_strategy", PRIMAL)
     for _ in range(len(rack.sizes)):
@@ -80,7 +82,7 @@ def add_patterns(programme: Programme, patterns: Sequence[Pattern]) -> None:
         key = (pattern.kind, pattern.takes.tobytes())
         if key not in programme.known:
             programme.known.add(key)
-            programme.patterns.append(pattern)
+            programme.patterns.append(replace(pattern, times=1))
             rows = np.append(np.flatnonzero(pattern.takes), len(pattern.takes) + pattern.kind)
             values = np.append(pattern.takes[pattern.takes > 0], 1)
             _add_column(programme, float(programme.costs[pattern.kind]), rows, values)
@@ -100,6 +102,8 @@ def generate(programme: Programme, need: Need, rounds: int, ladder: Ladder) -> S
     _ask(programme, need)
     shares, pull = _solve(programme, need), PULL
     for _ in range(rounds):
+        if programme.stops():
+            break
         known, pull = len(programme.patterns), pull if _is_steady(programme, shares) else 0.0
         worth = pull * programme.calm + (1.0 - pull) * shares.worth
         values = Values(worth, shares.worth, programme.costs + shares.tolls)

@@ -1,48 +1,93 @@
-"""Bars filled one after another: first fit decreasing, and the largest first with exact subset sums behind it."""
+"""Bars filled one after another: first fit decreasing, and the largest first with exact subset sums behind it.
+
+Bars that come out alike are filled at once, so that the work grows with different lengths and not with pieces.
+"""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from isomould.arrays import Ints
-from isomould.nesting.bar_rack import BarRack, Need, Pattern, step_of
+from isomould.nesting.bar_rack import BarRack, Need, Pattern, copies_of, step_of
 
 FINEST = 60_000
 """Steps into which a bar is divided at most for subset sums, unless a common divisor makes fewer exact."""
 
 
+@dataclass(frozen=True)
+class _Open:
+    """Bars alike that are still being filled: what room is left on each, and the sizes that it holds so far."""
+
+    kind: int
+    room: int
+    times: int
+    held: tuple[tuple[int, int], ...] = ()
+
+    def with_pieces(self, size: tuple[int, int], many: int, times: int) -> "_Open":
+        """Put so many pieces of a size, given with its number, on each of so many of the bars."""
+        number, length = size
+        room = self.room - many * length
+        return replace(self, room=room, times=times, held=(*self.held, (number, many)))
+
+
 def first_fit(rack: BarRack, need: Need) -> list[Pattern]:
     """Put every piece, the longest first, on the first bar with room; a new bar is the longest left."""
-    limits = need.limits.copy()
-    rows: list[tuple[int, list[int]]] = []
-    rooms: list[int] = []
-    sizes = rack.sizes.tolist()
-    for piece in _pieces(need):
-        index = next((k for k, room in enumerate(rooms) if room >= sizes[piece]), None)
-        kind = next(iter(_fitting(rack, limits.tolist(), sizes[piece])), None)
-        if index is None and kind is not None:
-            index = len(rows)
-            rows.append((kind, []))
-            rooms.append(int(rack.rooms[kind]))
-            limits[kind] -= 1
-        if index is not None:
-            rows[index][1].append(piece)
-            rooms[index] -= sizes[piece]
-    return [_pattern(rack, *row) for row in rows]
+    limits = need.limits.tolist()
+    bars: list[_Open] = []
+    sizes = enumerate(rack.sizes.tolist())
+    for (number, length), asked in zip(sizes, need.counts.tolist(), strict=True):
+        bars, left = _fill_open(bars, (number, length), asked)
+        while left and (kinds := _fitting(rack, limits, length)):
+            # Bars for as many pieces as fill them whole, then one for the rest.
+            kind, room = kinds[0], int(rack.rooms[kinds[0]])
+            most = _most(room, length, left)
+            new = _Open(kind, room, min(max(left // most, 1), limits[kind]))
+            opened, left = _fill_open([new], (number, length), left)
+            bars += opened
+            limits[kind] -= new.times
+    return [Pattern(bar.kind, _takes(rack, bar.held), bar.times) for bar in bars]
+
+
+def _fill_open(bars: Sequence[_Open], size: tuple[int, int], left: int) -> tuple[list[_Open], int]:
+    """Fill bars in their order with pieces of a size; give them, and the pieces that found no room."""
+    filled: list[_Open] = []
+    for bar in bars:
+        most = _most(bar.room, size[1], left)
+        whole = min(left // most, bar.times) if most else 0
+        last = left - whole * most if most and whole < bar.times else 0
+        untouched = bar.times - whole - (last > 0)
+        filled += [bar.with_pieces(size, most, whole)] if whole else []
+        filled += [bar.with_pieces(size, last, 1)] if last else []
+        filled += [replace(bar, times=untouched)] if untouched else []
+        left -= whole * most + last
+    return filled, left
+
+
+def _most(room: int, length: int, left: int) -> int:
+    """Give how many pieces of a length a room holds, of those that are left."""
+    return min(room // length, left) if length else left
+
+
+def _takes(rack: BarRack, held: Sequence[tuple[int, int]]) -> Ints:
+    takes = np.zeros(len(rack.sizes), dtype=np.int64)
+    for number, many in held:
+        takes[number] = many
+    return takes
 
 
 def largest_first(rack: BarRack, need: Need) -> list[Pattern]:
     """Put the longest piece left on a bar and fill the rest of it by an exact subset sum."""
     patterns: list[Pattern] = []
-    left, limits = _pieces(need), need.limits.tolist()
-    steps = _steps(rack)
-    while left and (kinds := _fitting(rack, limits, int(rack.sizes[left[0]]))):
-        chosen = [(kind, _fill(left, int(rack.rooms[kind]) // steps[0], steps[1])) for kind in kinds]
-        kind, places = min(chosen, key=lambda choice: _waste(rack, choice[0], [left[k] for k in choice[1]]))
-        patterns.append(_pattern(rack, kind, [left[place] for place in places]))
-        limits[kind] -= 1
-        used = set(places)
-        left = [piece for place, piece in enumerate(left) if place not in used]
+    left, limits = need.counts.copy(), need.limits.tolist()
+    grid = _grid(rack)
+    while left.any() and (kinds := _fitting(rack, limits, int(rack.sizes[np.argmax(left > 0)]))):
+        choices = [Pattern(kind, _fill_behind(rack, left, kind, grid)) for kind in kinds]
+        chosen = min(choices, key=lambda choice: _waste(rack, choice))
+        again = replace(chosen, times=min(_repeats(rack, left, chosen), limits[chosen.kind]))
+        patterns.append(again)
+        limits[again.kind] -= again.times
+        left -= again.takes * again.times
     return patterns
 
 
@@ -50,15 +95,14 @@ def fill(rack: BarRack, counts: Ints, kind: int, steps: int) -> Ints:
     """Give the pieces (n,) of some that fill a bar most closely, on a grid of so many steps."""
     step = step_of(rack, steps)
     sizes = (-(-rack.sizes // step)).tolist()
-    pieces = np.repeat(np.arange(len(counts)), counts).tolist()
-    reaches = _reach(pieces, int(rack.rooms[kind]) // step, sizes)
-    chosen = [pieces[place] for place in _trace(pieces, reaches, sizes)]
-    return np.bincount(chosen, minlength=len(counts)).astype(np.int64)
+    return _fullest(rack, counts, int(rack.rooms[kind]) // step, sizes)
 
 
-def _pieces(need: Need) -> list[int]:
-    """Give the number of its size for every piece, the longest first."""
-    return np.repeat(np.arange(len(need.counts)), need.counts).tolist()
+def _repeats(rack: BarRack, left: Ints, chosen: Pattern) -> int:
+    """Give how often the same choice comes again: as long as a bar could not use more of what it takes."""
+    used = chosen.takes > 0
+    spare = np.maximum(left - copies_of(rack, left), 0)
+    return 1 + int((spare[used] // chosen.takes[used]).min())
 
 
 def _fitting(rack: BarRack, limits: Sequence[int], size: int) -> list[int]:
@@ -66,25 +110,34 @@ def _fitting(rack: BarRack, limits: Sequence[int], size: int) -> list[int]:
     return [kind for kind, room in enumerate(rack.rooms.tolist()) if limits[kind] > 0 and room >= size]
 
 
-def _waste(rack: BarRack, kind: int, pieces: list[int]) -> float:
+def _waste(rack: BarRack, choice: Pattern) -> float:
     """Give the cost of a filled bar by the length of its pieces."""
-    return float(rack.costs[kind] / rack.sizes[pieces].sum())
+    return float(rack.costs[choice.kind] / (choice.takes @ rack.sizes))
 
 
-def _pattern(rack: BarRack, kind: int, pieces: Sequence[int]) -> Pattern:
-    return Pattern(kind, np.bincount(pieces, minlength=len(rack.sizes)).astype(np.int64))
-
-
-def _steps(rack: BarRack) -> tuple[int, list[int]]:
+def _grid(rack: BarRack) -> tuple[int, list[int]]:
     """Give the grid of the subset sums, exact if the sizes have a coarse common divisor, and the sizes on it."""
     step = step_of(rack, FINEST)
     return step, (-(-rack.sizes // step)).tolist()
 
 
-def _fill(left: Sequence[int], room: int, steps: Sequence[int]) -> list[int]:
-    """Fill one bar, places in `left`, the first of them for certain."""
-    reaches = _reach(left[1:], room - steps[left[0]], steps)
-    return [0, *(place + 1 for place in _trace(left[1:], reaches, steps))]
+def _fill_behind(rack: BarRack, left: Ints, kind: int, grid: tuple[int, list[int]]) -> Ints:
+    """Fill one bar behind the longest piece left; give the pieces (n,) with that one."""
+    step, sizes = grid
+    first = int(np.argmax(left > 0))
+    others = left.copy()
+    others[first] -= 1
+    takes = _fullest(rack, others, int(rack.rooms[kind]) // step - sizes[first], sizes)
+    takes[first] += 1
+    return takes
+
+
+def _fullest(rack: BarRack, counts: Ints, room: int, sizes: Sequence[int]) -> Ints:
+    """Give the pieces (n,) that fill a room most closely; sizes and room in steps of one grid."""
+    pieces = np.repeat(np.arange(len(counts)), copies_of(rack, counts)).tolist()
+    reaches = _reach(pieces, room, sizes)
+    chosen = [pieces[place] for place in _trace(pieces, reaches, sizes)]
+    return np.bincount(chosen, minlength=len(counts)).astype(np.int64)
 
 
 def _reach(pieces: Sequence[int], room: int, steps: Sequence[int]) -> list[int]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from isomould.arrays import Ints
-from isomould.nesting.bar_rack import BarRack, step_of
+from isomould.nesting.bar_rack import BarRack, copies_of, step_of
 
 RUNGS = 60_000
 """Different sums of pieces up to which all are looked at."""
@@ -69,12 +69,19 @@ def exact_ladder(rack: BarRack, counts: Ints) -> Ladder | None:
 
 
 def _sums(rack: BarRack, copies: Ints) -> Ints | None:
-    sums, room = np.zeros(1, dtype=np.int64), int(rack.rooms.max())
-    for size in np.repeat(rack.sizes, copies)[::-1].tolist():
-        sums = np.union1d(sums, sums[: np.searchsorted(sums, room - size, "right")] + size)
-        if len(sums) > RUNGS:
+    """Give all sums of pieces that the longest bar holds, ascending; None if there are too many.
+
+    Bit k of `reached` is set if some pieces are k steps long together, in steps of what divides all sizes.
+    """
+    step = max(int(np.gcd.reduce(rack.sizes)), 1)
+    room = int(rack.rooms.max()) // step
+    mask, reached = (1 << (room + 1)) - 1, 1
+    for size in np.repeat(rack.sizes // step, copies)[::-1].tolist():
+        reached |= (reached << size) & mask
+        if reached.bit_count() > RUNGS:
             return None
-    return sums
+    bits = np.frombuffer(reached.to_bytes(room // 8 + 1, "little"), dtype=np.uint8)
+    return np.flatnonzero(np.unpackbits(bits, bitorder="little")).astype(np.int64) * step
 
 
 def grid(rack: BarRack, step: int) -> Ladder:
@@ -87,9 +94,3 @@ def grid_step(rack: BarRack, counts: Ints, fineness: int) -> int:
     """Give the step of a grid so many times as fine as the coarsest on which pieces of some counts are priced."""
     pieces = int(copies_of(rack, counts).sum())
     return step_of(rack, fineness * min(STEPS, CELLS // max(pieces, 1)))
-
-
-def copies_of(rack: BarRack, counts: Ints) -> Ints:
-    """Give how many pieces of every size (n,) the longest bar may hold."""
-    most = np.where(rack.sizes > 0, rack.rooms.max() // np.maximum(rack.sizes, 1), counts)
-    return np.minimum(counts, most)

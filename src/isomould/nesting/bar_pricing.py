@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints
-from isomould.nesting.bar_ladder import Ladder, copies_of
-from isomould.nesting.bar_rack import BarRack, Need, Pattern
+from isomould.nesting.bar_ladder import Ladder
+from isomould.nesting.bar_rack import BarRack, Need, Pattern, copies_of
 from isomould.ties import FINE, in_order
 
 SLIGHT = 1e-7

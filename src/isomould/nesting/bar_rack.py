@@ -1,5 +1,6 @@
 """What a search for bars sees: sizes, rooms and costs, without names."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,34 +40,55 @@ class Need:
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """One bar: its kind, and how many pieces of every size (n,) are cut from it."""
+    """Bars that are cut alike: their kind, the pieces of every size (n,) on each, and how many bars."""
 
     kind: int
     takes: Ints
+    times: int = 1
 
 
-def cost_of(rack: BarRack, patterns: list[Pattern]) -> float:
+def bars_in(patterns: Sequence[Pattern]) -> int:
+    """Count bars."""
+    return sum(pattern.times for pattern in patterns)
+
+
+def one_by_one(patterns: Sequence[Pattern]) -> list[Pattern]:
+    """Give every bar as a pattern of its own."""
+    return [Pattern(pattern.kind, pattern.takes) for pattern in patterns for _ in range(pattern.times)]
+
+
+def cost_of(rack: BarRack, patterns: Sequence[Pattern]) -> float:
     """Give the cost of bars."""
-    return float(sum(rack.costs[pattern.kind] for pattern in patterns))
+    return float(sum(rack.costs[pattern.kind] * pattern.times for pattern in patterns))
 
 
-def merit(rack: BarRack, patterns: list[Pattern]) -> tuple[int, float, int]:
+def merit(rack: BarRack, patterns: Sequence[Pattern]) -> tuple[int, float, int]:
     """Give what is the least for the best bars: more pieces, then less cost, then fewer bars."""
-    return -sum(int(pattern.takes.sum()) for pattern in patterns), cost_of(rack, patterns), len(patterns)
+    pieces = int(sum_of(rack, patterns).sum())
+    return -pieces, cost_of(rack, patterns), bars_in(patterns)
 
 
-def sum_of(rack: BarRack, patterns: list[Pattern]) -> Ints:
+def sum_of(rack: BarRack, patterns: Sequence[Pattern]) -> Ints:
     """Give how many pieces of every size (n,) some bars hold."""
-    return sum((pattern.takes for pattern in patterns), np.zeros(len(rack.sizes), dtype=np.int64))
+    pieces = np.zeros(len(rack.sizes), dtype=np.int64)
+    for pattern in patterns:
+        pieces += pattern.takes * pattern.times
+    return pieces
 
 
-def less(need: Need, patterns: list[Pattern]) -> Need:
+def less(need: Need, patterns: Sequence[Pattern]) -> Need:
     """Give what is left of a need after some bars."""
     counts, limits = need.counts.copy(), need.limits.copy()
     for pattern in patterns:
-        counts -= pattern.takes
-        limits[pattern.kind] -= 1
+        counts -= pattern.takes * pattern.times
+        limits[pattern.kind] -= pattern.times
     return Need(counts, limits)
+
+
+def copies_of(rack: BarRack, counts: Ints) -> Ints:
+    """Give how many pieces of every size (n,) the longest bar may hold."""
+    most = np.where(rack.sizes > 0, rack.rooms.max() // np.maximum(rack.sizes, 1), counts)
+    return np.minimum(counts, most)
 
 
 def step_of(rack: BarRack, steps: int) -> int:

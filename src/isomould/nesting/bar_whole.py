@@ -7,8 +7,7 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, fits
-from isomould.nesting.bar_ladder import copies_of
-from isomould.nesting.bar_rack import BarRack, Need, Pattern, sum_of
+from isomould.nesting.bar_rack import BarRack, Need, Pattern, copies_of, sum_of
 from isomould.ties import FINE, first_least, in_order
 
 BRANCHES, MANY = 50, 1_000

@@ -3,21 +3,28 @@
 `bar_task` says what the search sees of them.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from isomould.errors import Gathering, Refused
 from isomould.nesting.bar_bound import BarBound
 from isomould.nesting.bar_checker import check_bars
-from isomould.nesting.bar_ends import lay
+from isomould.nesting.bar_ends import Blank, Laid, lay
+from isomould.nesting.bar_rack import cost_of, one_by_one
 from isomould.nesting.bar_search import find_bars
 from isomould.nesting.bar_task import MILLIONTHS, Kind, Piece, kinds_of, make_task, pieces_of
 from isomould.nesting.layout import Bar, BarLayout, Cut, Member, Unplaced
-from isomould.nesting.search import Effort
+from isomould.nesting.search import Search
 from isomould.nesting.settings import BarStock, StockSettings
 from isomould.nesting.shapes import UM, round_away
 
 _Plan = tuple[BarStock, list[Piece]]
+
+_Laying = Callable[[tuple[Blank, ...], int], list[Laid]]
+
+_LAID = 1024
+"""Orders of pieces that are remembered: bars cut alike are laid once."""
 
 
 @dataclass(frozen=True)
@@ -28,9 +35,10 @@ class _Nested:
     left: list[Piece]
     bound: BarBound
     unit: int
+    stopped: bool
 
 
-def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = "normal") -> BarLayout:
+def nest_bars(members: Sequence[Member], stock: StockSettings, task: Search | None = None) -> BarLayout:
     """Nest members on the stock bars of their sections.
 
     A quick effort leaves out patterns, and bounds by them, where lengths are many; the best is the normal one.
@@ -38,7 +46,8 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = 
     Returns
     -------
     BarLayout
-        Proved by `check_bars`; `bounds` holds for any cutting of the same pieces.
+        Proved by `check_bars`; `bounds` holds for any cutting of the same pieces. `reproducible` is False if the
+        task was told to stop before the search had ended.
 
     Raises
     ------
@@ -47,10 +56,16 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = 
     """
     refuse_long_members(members, stock)
     sections = list(dict.fromkeys(member.section for member in members))
-    nested = [_nest_section(section, members, stock, effort) for section in sections]
+    task, nested = task or Search(), list[_Nested]()
+    for done, section in enumerate(sections, start=1):
+        nested.append(_nest_section(section, members, stock, task))
+        found = sum(len(one.plans) for one in nested)
+        task.tell(done, len(sections), found, sum(one.bound.bars for one in nested))
     plans = [plan for one in nested for plan in one.plans]
     left = tuple(_unplaced(piece) for one in nested for piece in one.left)
-    bars = tuple(_bar(f"B{k + 1:0{max(3, len(str(len(plans))))}}", plan, stock) for k, plan in enumerate(plans))
+    digits = max(3, len(str(len(plans))))
+    laying = lru_cache(_LAID)(lay)
+    bars = tuple(_bar(f"B{k:0{digits}}", plan, stock, laying) for k, plan in enumerate(plans, start=1))
     layout = BarLayout(
         bars=bars,
         unplaced=left,
@@ -59,6 +74,7 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, effort: Effort = 
         price=sum(bar.price for bar, _ in plans),
         price_bound=sum(_price_bound(one) for one in nested),
         status="incomplete" if left else "complete",
+        reproducible=not any(one.stopped for one in nested),
     )
     return _proved(members, stock, layout)
 
@@ -69,14 +85,16 @@ def _price_bound(nested: _Nested) -> float:
     return nested.bound.cost * nested.unit / MILLIONTHS if priced else 0.0
 
 
-def _nest_section(section: str, members: Sequence[Member], stock: StockSettings, effort: Effort) -> _Nested:
+def _nest_section(section: str, members: Sequence[Member], stock: StockSettings, search: Search) -> _Nested:
     kinds = kinds_of(section, stock)
     pieces = [piece for member in members if member.section == section for piece in pieces_of(member, stock)]
     task = make_task(pieces, kinds, stock)
     slanted = any(any(piece.blank.runs) for piece in pieces)
-    patterns, bound = find_bars(task.rack, task.need, task.proof, task.fits if slanted else None, effort)
-    plans = [(kinds[pattern.kind].bar, task.take(pattern.takes)) for pattern in patterns]
-    return _Nested(plans, [piece for queue in task.queues for piece in queue], bound, task.unit)
+    patterns, bound = find_bars(task.rack, task.need, task.proof, task.fits if slanted else None, search)
+    plans = [(kinds[bar.kind].bar, task.take(bar.takes)) for bar in one_by_one(patterns)]
+    left = [piece for queue in task.queues for piece in queue]
+    at_bound = not left and len(plans) <= bound.fewest and cost_of(task.rack, patterns) <= bound.cost
+    return _Nested(plans, left, bound, task.unit, search.stops and not at_bound)
 
 
 def refuse_long_members(members: Sequence[Member], stock: StockSettings) -> None:
@@ -107,18 +125,16 @@ def _refuse_long(piece: Piece, kinds: Sequence[Kind], section: str, stock: Stock
         raise Refused("E-NEST-20", f"member {piece.id}", found, f"stock bars of {section}: {bars}", way_out)
 
 
-def _bar(name: str, plan: _Plan, stock: StockSettings) -> Bar:
+def _bar(name: str, plan: _Plan, stock: StockSettings, laying: _Laying) -> Bar:
     bar, pieces = plan
-    cuts = tuple(_cuts(pieces, stock))
+    laid = laying(tuple(piece.blank for piece in pieces), round_away(stock.bar_kerf * UM))
+    cuts = tuple(_cut(pieces[one.piece], one, stock.bar_trim) for one in laid)
     end = max(cut.start + cut.length for cut in cuts)
     return Bar(name, bar.section, bar.length, cuts, bar.length - stock.bar_trim - end)
 
 
-def _cuts(pieces: Sequence[Piece], stock: StockSettings) -> Iterator[Cut]:
-    for laid in lay([piece.blank for piece in pieces], round_away(stock.bar_kerf * UM)):
-        piece = pieces[laid.piece]
-        start = stock.bar_trim + laid.start / UM
-        yield Cut(piece.id, piece.location, start, piece.length, laid.turned)
+def _cut(piece: Piece, laid: Laid, trim: float) -> Cut:
+    return Cut(piece.id, piece.location, trim + laid.start / UM, piece.length, laid.turned)
 
 
 def _unplaced(piece: Piece) -> Unplaced:

@@ -1,7 +1,16 @@
 """Asked by a search whether to stop: after a time limit, or once somebody interrupted it."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
+
+Stops = Callable[[], bool]
+"""Tells whether a search should end."""
+
+
+def never() -> bool:
+    """Let a search run to its end."""
+    return False
 
 
 @dataclass
