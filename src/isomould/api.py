@@ -192,7 +192,7 @@ def nest(
     stop
         A time limit, or a way to interrupt: the best layout so far is written and marked.
     progress
-        Told iterations done, iterations in all, sheets so far and their lower bound.
+        Told iterations done, iterations in all, sheets (or bars) so far and their lower bound.
     jobs
         Processes, None for one per core: they change the time, never the result.
     files
@@ -223,29 +223,27 @@ def nest(
     members = lists_members(Path(instance), asked.reading, stock)
     check_targets(targets, "members" if members else "parts")
     refuse_overwriting(targets, [Path(instance), *([files.stock] if files.stock else [])])
+    search = Search(effort, progress, stop, jobs)
     if members:
-        _refuse_time_limit(stop)
         listed = read_member_list(Path(instance), stock, asked.reading)
-        return _nest_members(listed, effort, targets, remark or _ignore)
+        return _nest_members(listed, search, targets, remark or _ignore)
     given = read_part_list(Path(instance), asked)
     for note in given.notes:
         (remark or _ignore)(note)
-    layout = nest_sheets(given.instance.parts, given.instance.stock, Search(effort, progress, stop, jobs))
+    layout = nest_sheets(given.instance.parts, given.instance.stock, search)
     # An interrupt that came after the search had ended has cost nothing: such a layout keeps its status.
-    layout = replace(layout, status="interrupted") if stop.interrupted and not layout.reproducible else layout
+    if stop.interrupted and not layout.reproducible:
+        layout = replace(layout, status="interrupted")
     with workers(jobs) as spread:
         publish_nest(targets, layout, given, spread)
     return layout
 
 
-def _refuse_time_limit(stop: Stop) -> None:
-    if stop.seconds is not None:
-        way_out = "Leave it out; Ctrl-C ends a search that takes too long."
-        raise Refused("E-OUT-12", "--time-limit", f"{stop.seconds:g} s for a list of members", "parts only", way_out)
-
-
 def _nest_members(
-    listed: tuple[MemberList, tuple[Note, ...]], effort: Effort, targets: Targets, remark: Callable[[Note], None]
+    listed: tuple[MemberList, tuple[Note, ...]],
+    search: Search,
+    targets: Targets,
+    remark: Callable[[Note], None],
 ) -> BarLayout:
     from isomould.delivery.nested import publish_bars
     from isomould.nesting.bars import nest_bars
@@ -253,7 +251,10 @@ def _nest_members(
     given, notes = listed
     for note in notes:
         remark(note)
-    layout = nest_bars(given.members, given.stock, effort)
+    layout = nest_bars(given.members, given.stock, search)
+    interrupted = isinstance(search.should_stop, Stop) and search.should_stop.interrupted
+    if interrupted and not layout.reproducible and not layout.unplaced:
+        layout = replace(layout, status="interrupted")
     publish_bars(targets, layout, given)
     return layout
 

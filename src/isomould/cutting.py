@@ -84,7 +84,7 @@ def nest_kit(kit: Kit, stock: StockSettings | None, task: Search, spread: Spread
     refuse_stock(kit, stock)
     work = [
         _panel_work(parts, stock, task),
-        *([partial(nest_bars, members, stock, task.effort)] if stock.bars else []),
+        *([partial(nest_bars, members, stock, Search(task.effort))] if stock.bars else []),
     ]
     sheets, *rest = spread(_run, work)
     bars = cast("BarLayout", rest[0]) if rest else None

@@ -10,6 +10,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from pypdf import PdfReader
 
@@ -232,7 +233,7 @@ def test_members_are_nested_on_bars(tmp_path):
     proved = run("verify", "layout.json", "--saw-list", "saw.csv", "--plan", "saw.pdf", folder=tmp_path)
     assert (proved.returncode, "3 checks passed" in proved.stdout) == (0, True)
     for wrong, word in ((("--sheets", "cut"), "--sheets"), (("--saw-list", "saw.pdf"), "--saw-list"),
-                        (("--time-limit", "1"), "--time-limit"), (("--bar", "RHS 50x3=3000"), "M1"),
+                        (("--bar", "RHS 50x3=3000"), "M1"),
                         (("--kerf", "3"), "--kerf"), (("--sheet", "3000x2000"), "--sheet"),
                         (("--bar", "6 m"), "--bar")):  # fmt: skip
         refused = run(*(command if "bar" not in wrong[0] else command[:4]), *wrong, folder=tmp_path)
@@ -255,6 +256,18 @@ def test_quick_stock_by_options(tmp_path):
     for wrong in wrongs:
         refused = run(*command, *wrong, folder=tmp_path)
         assert (refused.returncode, "Traceback" in refused.stderr) == (2, False)
+
+
+def test_a_time_limit_of_bars_is_marked_too(tmp_path):
+    """Many lengths on one section: a search that is stopped at once still gives bars that are proved."""
+    lengths = np.random.default_rng(5).uniform(1200, 3600, 120)
+    rows = "".join(f"FL200*12;M{k};1;{x:.2f}\n" for k, x in enumerate(lengths))
+    (tmp_path / "m.csv").write_text(f"section;mark;qty;length\n{rows}")
+    command = ("nest", "m.csv", "--out", "layout.json", "--bar", "FL200*12=6 m")
+    assert run(*command, "--time-limit", "0", folder=tmp_path).returncode == 0
+    layout = json.loads((tmp_path / "layout.json").read_text())
+    assert (layout["status"], layout["reproducible"]) == ("complete", False)
+    assert layout["bound"] <= len(layout["bars"])
 
 
 def test_a_time_limit_is_marked(tmp_path):

@@ -112,13 +112,10 @@ def nest(
     own = read_stock(files["stock"]) if files["stock"] else {}
     members = lists_members(instance, Reading(files["units"], files["columns"]), {**own, **files["changes"]})
     _refuse_stock_of_others(files["changes"], members)
-    if members:
-        tell(f"nesting {instance}")
-    else:
-        catch_signals(Interrupting(stop))
-        tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
-    asked = isomould.NestFiles(**files)
-    layout = isomould.nest(instance, out, effort, stop, _tell_sheets(set(), tell), jobs, asked, _remark)
+    catch_signals(Interrupting(stop))
+    tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
+    asked, progress = isomould.NestFiles(**files), _tell_number("bars" if members else "sheets", tell)
+    layout = isomould.nest(instance, out, effort, stop, progress, jobs, asked, _remark)
     say(f"{_worth(layout)}, status {layout.status}: {out}")
     if stop.interrupted:
         sys.exit(INTERRUPTED)
@@ -147,14 +144,15 @@ def _remark(note: Note) -> None:
     warn(f"note: {note}")
 
 
-def _tell_sheets(told: set[int], tell: Callable[[str], None]) -> Callable[[int, int, int, int], None]:
-    """Give a progress that tells every number of sheets once."""
+def _tell_number(what: str, tell: Callable[[str], None]) -> Callable[[int, int, int, int], None]:
+    """Give a progress that tells every number of sheets, or of bars, once."""
+    told = set[int]()
 
-    def progress(_: int, __: int, sheets: int, bound: int) -> None:
-        if sheets not in told:
-            told.add(sheets)
-            above = f", at least {bound} needed, {sheets - bound} above that" if bound > 0 else ""
-            tell(f"{sheets} sheets{above}")
+    def progress(_: int, __: int, number: int, bound: int) -> None:
+        if number not in told:
+            told.add(number)
+            above = f", at least {bound} needed, {number - bound} above that" if bound > 0 else ""
+            tell(f"{number} {what}{above}")
 
     return progress
 

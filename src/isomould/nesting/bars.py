@@ -4,7 +4,7 @@
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from isomould.errors import Gathering, Refused
@@ -18,6 +18,7 @@ from isomould.nesting.layout import Bar, BarLayout, Cut, Member, Unplaced
 from isomould.nesting.search import Search
 from isomould.nesting.settings import BarStock, StockSettings
 from isomould.nesting.shapes import UM, round_away
+from isomould.nesting.stop import Heard, never
 
 _Plan = tuple[BarStock, list[Piece]]
 
@@ -35,7 +36,7 @@ class _Nested:
     left: list[Piece]
     bound: BarBound
     unit: int
-    stopped: bool
+    at_bound: bool
 
 
 def nest_bars(members: Sequence[Member], stock: StockSettings, task: Search | None = None) -> BarLayout:
@@ -56,7 +57,9 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, task: Search | No
     """
     refuse_long_members(members, stock)
     sections = list(dict.fromkeys(member.section for member in members))
-    task, nested = task or Search(), list[_Nested]()
+    task = task or Search()
+    heard, nested = Heard(task.should_stop or never), list[_Nested]()
+    task = replace(task, should_stop=heard)
     for done, section in enumerate(sections, start=1):
         nested.append(_nest_section(section, members, stock, task))
         found = sum(len(one.plans) for one in nested)
@@ -74,7 +77,7 @@ def nest_bars(members: Sequence[Member], stock: StockSettings, task: Search | No
         price=sum(bar.price for bar, _ in plans),
         price_bound=sum(_price_bound(one) for one in nested),
         status="incomplete" if left else "complete",
-        reproducible=not any(one.stopped for one in nested),
+        reproducible=not heard.told or all(one.at_bound for one in nested),
     )
     return _proved(members, stock, layout)
 
@@ -94,7 +97,7 @@ def _nest_section(section: str, members: Sequence[Member], stock: StockSettings,
     plans = [(kinds[bar.kind].bar, task.take(bar.takes)) for bar in one_by_one(patterns)]
     left = [piece for queue in task.queues for piece in queue]
     at_bound = not left and len(plans) <= bound.fewest and cost_of(task.rack, patterns) <= bound.cost
-    return _Nested(plans, left, bound, task.unit, search.stops and not at_bound)
+    return _Nested(plans, left, bound, task.unit, at_bound)
 
 
 def refuse_long_members(members: Sequence[Member], stock: StockSettings) -> None:

@@ -14,8 +14,21 @@ def never() -> bool:
 
 
 @dataclass
+class Heard:
+    """Asks another whether to stop, and knows whether the answer was ever yes."""
+
+    asked: Stops
+    told: bool = False
+
+    def __call__(self) -> bool:
+        """Tell whether the search should end."""
+        self.told = self.told or self.asked()
+        return self.told
+
+
+@dataclass
 class Stop:
-    """The one value here that changes: `interrupt` may be called from a signal handler at any moment."""
+    """A time limit and a way to interrupt: `interrupt` may be called from a signal handler at any moment."""
 
     seconds: float | None = None
     interrupted: bool = False
