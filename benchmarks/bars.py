@@ -1,6 +1,7 @@
-"""Bars, bound and seconds for 1,300 members of many lengths: the table in docs/nesting.md.
+"""Bars, bound and seconds for 1,300 members of many lengths, and how time grows: tables in docs/nesting.md.
 
     python benchmarks/bars.py [SEED …]
+    python benchmarks/bars.py growth
 
 Lengths are drawn evenly between two limits, to 0.001 mm, and pieces shared out among them by lot; kerf 3 mm. Every
 layout is proved by the checker before it is counted. FFD is first fit decreasing alone. Seconds are the processor's.
@@ -13,7 +14,7 @@ import numpy as np
 
 from isomould.nesting.bar_checker import check_bars
 from isomould.nesting.bar_greedy import first_fit
-from isomould.nesting.bar_rack import ENDLESS, BarRack, Need
+from isomould.nesting.bar_rack import ENDLESS, BarRack, Need, bars_in
 from isomould.nesting.bars import nest_bars
 from isomould.nesting.layout import Member
 from isomould.nesting.settings import BarStock, StockSettings
@@ -29,7 +30,14 @@ KINDS = [
 ]
 
 
+GROWTH = [1_000, 10_000, 100_000]
+"""Pieces of 100 lengths, 600 to 2,400 mm, on bars of 6 m."""
+
+
 def main() -> None:
+    if sys.argv[1:] == ["growth"]:
+        grow()
+        return
     print("| seed | lengths | from, to | bar | FFD | bars | bound | by | seconds |", "| --- " * 9 + "|", sep="\n")
     for seed in [int(word) for word in sys.argv[1:]] or [1]:
         for lengths, limits, bar in KINDS:
@@ -47,10 +55,23 @@ def line(seed: int, lengths: int, limits: tuple[int, int], bar: int) -> str:
     seconds = time.process_time() - start
     findings = check_bars(members, stock, layout)
     assert not findings, findings[0]
-    plain = len(first_fit(*rack(sizes, counts, bar)))
+    plain = bars_in(first_fit(*rack(sizes, counts, bar)))
     found = (plain, len(layout.bars), layout.bound, layout.bound_kind, f"{seconds:.1f}")
     cells = (seed, lengths, f"{limits[0]}, {limits[1]}", bar, *found)
     return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def grow() -> None:
+    """Print how seconds grow with the pieces, their lengths the same."""
+    print("| pieces | bars | bound | seconds |", "| --- " * 4 + "|", sep="\n")
+    lengths = np.round(np.random.default_rng(1).uniform(600, 2400, 100), 1)
+    stock = StockSettings(bars=(BarStock(section="P", length=6000),), bar_kerf=3)
+    for pieces in GROWTH:
+        members = [Member(k, "P", float(x), pieces // 100) for k, x in enumerate(lengths)]
+        start = time.process_time()
+        layout = nest_bars(members, stock)
+        seconds = f"{time.process_time() - start:.1f}"
+        print(f"| {pieces:,} | {len(layout.bars):,} | {layout.bound:,} | {seconds} |", flush=True)
 
 
 def rack(sizes: np.ndarray, counts: np.ndarray, bar: int) -> tuple[BarRack, Need]:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from isomould.documents.picture import Picture
     from isomould.intake.member_rows import MemberList
     from isomould.nesting.layout import BarLayout, Layout
-    from isomould.nesting.search import Effort, Progress
+    from isomould.nesting.search import Effort, Progress, Search
     from isomould.nesting.stop import Stop
     from isomould.project.load import LoadedProject
     from isomould.study import Study

@@ -18,6 +18,7 @@ from isomould.nesting.bar_rack import BarRack, Need, Pattern, bars_in, cost_of, 
 from isomould.nesting.bar_squeeze import pack, squeeze
 from isomould.nesting.bar_whole import Fits, choose_best, choose_whole
 from isomould.nesting.search import Effort, Search
+from isomould.ties import FINE, in_order
 
 MOST: dict[Effort, int] = {"quick": 100, "normal": 2_000, "best": 2_000}
 """Different sizes up to which patterns pay, by effort."""
@@ -28,11 +29,17 @@ GRIDS: dict[Effort, tuple[int, ...]] = {"quick": (1,), "normal": (1, 4, 16), "be
 AGAIN = 6
 """Rounds of pricing after each step of the dive."""
 
-SHARE = 0.1
+SHARE = 0.02
 """Part of the bars still to come that a step of the dive fixes, if none is used whole."""
 
-FEW = 15.0
-"""Bars still to come of which whole numbers are chosen at once."""
+FEW = 45.0
+"""Bars still to come of which whole numbers are chosen at once; of half as many again, and so on."""
+
+DIVES: dict[Effort, int] = {"quick": 1, "normal": 3, "best": 10}
+"""Dives that are tried where nothing meets the bound."""
+
+LEAST = 0.7
+"""Of its use, what a bar is taken for at least where a dive goes by chance."""
 
 MIXES = 12
 """Mixes of bars that are tried."""
@@ -110,9 +117,11 @@ def _by_columns(
     bound, demand, fineness = _settle(case, programme, ladders, bound)
     if demand is not None and len(rack.costs) > 1 and not case.is_done(patterns, bound):
         patterns = _mixed(case, patterns, demand)
-    if not case.is_done(patterns, bound):
-        ladder = partial(ladders, fineness=fineness)
-        patterns = _dive(case, _counting(programme), ladder, patterns, bound)
+    counting, ladder = _counting(programme), partial(ladders, fineness=fineness)
+    for number in range(DIVES[case.task.effort]):
+        if not case.is_done(patterns, bound):
+            chance = np.random.default_rng(number) if number else None
+            patterns = _dive(case, counting, ladder, (patterns, bound), chance)
     if not case.is_done(patterns, bound):
         patterns = case.best(patterns, choose_best(rack, case.need))
     return _squeezed(case, patterns, bound), bound
@@ -171,11 +180,15 @@ def _dive(
     case: _Case,
     programme: Programme,
     ladder: Callable[[Ints], Ladder],
-    best: list[Pattern],
-    bound: BarBound,
+    known: tuple[list[Pattern], BarBound],
+    chance: np.random.Generator | None,
 ) -> list[Pattern]:
-    """Fix bars step by step, fill the rest each time, and end when nothing better can come."""
+    """Fix bars step by step, fill the rest each time, and end when nothing better can come.
+
+    Another dive goes another way: by `chance` it fixes others of the bars that are used much.
+    """
     rack, left = programme.rack, case.need
+    best, bound = known
     fixed, few = list[Pattern](), FEW
     while left.counts.any() and not case.is_done(best, bound):
         shares = generate(programme, left, AGAIN if fixed else ROUNDS, ladder(left.counts))
@@ -184,7 +197,7 @@ def _dive(
         if (to_come := float(shares.uses.sum())) <= few:
             few = to_come / 2
             best = case.best(best, fixed + choose_whole(programme, left, shares))
-        new = _fix(programme, shares, left)
+        new = _fix(programme, shares, left, chance)
         if not new:
             break
         fixed, left = fixed + new, less(left, new)
@@ -215,14 +228,15 @@ def _to_come(programme: Programme, shares: Shares, fixed: list[Pattern]) -> tupl
     return cost, bars_in(fixed) + whole(float(shares.uses.sum()))
 
 
-def _fix(programme: Programme, shares: Shares, left: Need) -> list[Pattern]:
-    """Give the bars that are used whole, or else those that are used most."""
-    entire = np.floor(shares.uses + SLIGHT).astype(np.int64)
+def _fix(programme: Programme, shares: Shares, left: Need, chance: np.random.Generator | None) -> list[Pattern]:
+    """Give the bars that are used whole, or else those that are used most; by chance, not all of them."""
+    uses = shares.uses if chance is None else shares.uses * chance.uniform(LEAST, 1.0, len(shares.uses))
+    entire = np.floor(uses + SLIGHT).astype(np.int64)
     if entire.any():
         chosen = [(int(k), int(entire[k])) for k in np.flatnonzero(entire)]
         return _as_far_as_wanted(programme, chosen, left)
-    most = np.argsort(-shares.uses, kind="stable")[: np.count_nonzero(shares.uses > SLIGHT)]
-    enough = max(1, round(SHARE * float(shares.uses.sum())))
+    most = in_order(-uses, FINE)[: np.count_nonzero(uses > SLIGHT)]
+    enough = max(1, round(SHARE * float(uses.sum())))
     return _as_far_as_wanted(programme, [(int(k), 1) for k in most], left)[:enough]
 
 

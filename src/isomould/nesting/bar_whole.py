@@ -7,14 +7,15 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Bools, Floats, Ints
 from isomould.nesting.bar_columns import SLIGHT, Programme, Shares, fits
+from isomould.nesting.bar_near import near_patterns
 from isomould.nesting.bar_rack import BarRack, Need, Pattern, copies_of, sum_of
 from isomould.ties import FINE, first_least, in_order
 
 BRANCHES, MANY = 50, 1_000
 """Branches that whole numbers may take of the best patterns, and of all."""
 
-CHOICE = 400
-"""Patterns among which whole numbers are chosen."""
+CHOICE, NEAR = 400, 3_000
+"""Patterns among which whole numbers are chosen: of those that are known, and of all that can be part of the best."""
 
 STATES = 1_000
 """Needs, less than a given one or equal, that are solved one after another."""
@@ -27,14 +28,23 @@ Fits = Callable[[Ints], Bools]
 
 
 def choose_whole(programme: Programme, need: Need, shares: Shares) -> list[Pattern]:
-    """Give the cheapest bars of the patterns that gain the most, as far as few branches tell; or none."""
-    known = [pattern for pattern, fit in zip(programme.patterns, fits(programme, need), strict=True) if fit]
-    gains = [float(p.takes @ shares.worth - programme.costs[p.kind] - shares.tolls[p.kind]) for p in known]
-    patterns = [known[k] for k in in_order(-np.array(gains), FINE)[:CHOICE]]
+    """Give the cheapest bars, as far as few branches tell; or none.
+
+    They are chosen among all patterns that can be part of the best, or where these are too many, among the known
+    patterns that gain the most.
+    """
+    patterns = near_patterns(programme, need, shares)
+    patterns = _best_known(programme, need, shares) if patterns is None else patterns[:NEAR]
     if not patterns:
         return []
     takes, kinds = np.array([pattern.takes for pattern in patterns]), [pattern.kind for pattern in patterns]
     return _trimmed(_numbers((takes, kinds), need, programme.costs[kinds], BRANCHES), patterns, need)
+
+
+def _best_known(programme: Programme, need: Need, shares: Shares) -> list[Pattern]:
+    known = [pattern for pattern, fit in zip(programme.patterns, fits(programme, need), strict=True) if fit]
+    gains = [float(p.takes @ shares.worth - programme.costs[p.kind] - shares.tolls[p.kind]) for p in known]
+    return [known[k] for k in in_order(-np.array(gains), FINE)[:CHOICE]]
 
 
 def choose_best(rack: BarRack, need: Need, fits: Fits | None = None) -> list[Pattern]:
