@@ -15,6 +15,7 @@ from isomould.verify import Certificate  # loaded here, before its name is given
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from typing import TypeVar
 
     import pandas as pd
 
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from isomould.nesting.stop import Stop
     from isomould.project.load import LoadedProject
     from isomould.study import Study
+
+    AnyLayout = TypeVar("AnyLayout", Layout, BarLayout)
 
 
 def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
@@ -226,14 +229,11 @@ def nest(
     search = Search(effort, progress, stop, jobs)
     if members:
         listed = read_member_list(Path(instance), stock, asked.reading)
-        return _nest_members(listed, search, targets, remark or _ignore)
+        return _nest_members(listed, (search, stop), targets, remark or _ignore)
     given = read_part_list(Path(instance), asked)
     for note in given.notes:
         (remark or _ignore)(note)
-    layout = nest_sheets(given.instance.parts, given.instance.stock, search)
-    # An interrupt that came after the search had ended has cost nothing: such a layout keeps its status.
-    if stop.interrupted and not layout.reproducible:
-        layout = replace(layout, status="interrupted")
+    layout = _marked(nest_sheets(given.instance.parts, given.instance.stock, search), stop)
     with workers(jobs) as spread:
         publish_nest(targets, layout, given, spread)
     return layout
@@ -241,7 +241,7 @@ def nest(
 
 def _nest_members(
     listed: tuple[MemberList, tuple[Note, ...]],
-    search: Search,
+    run: tuple[Search, Stop],
     targets: Targets,
     remark: Callable[[Note], None],
 ) -> BarLayout:
@@ -251,12 +251,15 @@ def _nest_members(
     given, notes = listed
     for note in notes:
         remark(note)
-    layout = nest_bars(given.members, given.stock, search)
-    interrupted = isinstance(search.should_stop, Stop) and search.should_stop.interrupted
-    if interrupted and not layout.reproducible and not layout.unplaced:
-        layout = replace(layout, status="interrupted")
+    search, stop = run
+    layout = _marked(nest_bars(given.members, given.stock, search), stop)
     publish_bars(targets, layout, given)
     return layout
+
+
+def _marked(layout: AnyLayout, stop: Stop) -> AnyLayout:
+    """Say of a layout that its search was interrupted; one that had ended before lost nothing and keeps its status."""
+    return replace(layout, status="interrupted") if stop.interrupted and not layout.reproducible else layout
 
 
 def _ignore(_: Note) -> None:

@@ -72,7 +72,7 @@ def _worth_at_least(rack: BarRack, need: Need, kind: int, worth: Floats, least: 
 def _full(rack: BarRack, need: Need, takes: Ints, rest: Ints) -> Bools:
     """Tell of every pattern (m, n) whether no piece that is left fits its rest (m,)."""
     more = (takes < need.counts) & (rest[:, None] >= rack.sizes)
-    return ~more.any(axis=1)
+    return np.count_nonzero(more, axis=1) == 0
 
 
 def _most_from(rack: BarRack, need: Need, kind: int, worth: Floats) -> tuple[Floats, int]:
