@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from isomould.design import Design
+    from isomould.parts.plates import Shape
 
 
 def check_file(path: Path, changes: Sequence[str]) -> Checked:
@@ -36,8 +37,9 @@ def check_file(path: Path, changes: Sequence[str]) -> Checked:
         if loaded.refused:
             faults.run(_try_salvaged, path, changes, faults)
         faults.run(lambda: safe_name(loaded.value.project.project.name))
-        designs = faults.run(lambda: _rehearsed(loaded))
-        return _checked(loaded.value, designs.value)
+        bodies: dict[str, tuple[Shape, ...]] = {}
+        designs = faults.run(lambda: _rehearsed(loaded, bodies))
+        return _checked(loaded.value, designs.value, bodies[designs.value[MAIN].name])
 
 
 def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None:
@@ -52,23 +54,36 @@ def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None
         try_curves(project, path.resolve().parent, faults)
 
 
-def _rehearsed(loaded: Attempt[LoadedProject]) -> dict[str, Design]:
+def _rehearsed(loaded: Attempt[LoadedProject], bodies: dict[str, tuple[Shape, ...]]) -> dict[str, Design]:
+    """Rehearse a build; the surfaces of nodes, which clashes are measured on, are kept by the design's name."""
     project = loaded.value  # ends here if there is none
 
+    from isomould.parts.solid import make_bodies
     from isomould.rehearsal import refuse_all_clashes, rehearse
 
-    return rehearse(project, refuse_all_clashes)
+    def further(design: Design) -> None:
+        made = bodies[design.name] = make_bodies(design.kit.nodes, design.kit.joints)
+        refuse_all_clashes(design, made)
+
+    return rehearse(project, further)
 
 
-def _checked(loaded: LoadedProject, designs: dict[str, Design]) -> Checked:
-    """Say what the shapes of a project come to; the facts are those of the first."""
+def _checked(loaded: LoadedProject, designs: dict[str, Design], bodies: tuple[Shape, ...]) -> Checked:
+    """Say what the shapes of a project come to; facts and figures are those of the first."""
     from isomould.design import requests_of
     from isomould.documents.overview import kit_facts
     from isomould.family import kit_table
     from isomould.form.survey import survey
+    from isomould.sizing import size_design
 
     design = designs[MAIN]
+    sized = size_design(design, bodies)
     curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
-    divisions = tuple(map(survey, curves, polygons, requests_of(loaded.project)))
-    kit = kit_table(designs) if loaded.shapes else None
-    return Checked(design, kit_facts(design.kit), divisions, design.notes, kit)
+    return Checked(
+        design=design,
+        facts=kit_facts(design.kit),
+        divisions=tuple(map(survey, curves, polygons, requests_of(loaded.project))),
+        notes=(*design.notes, *sized.notes),
+        kit=kit_table(designs) if loaded.shapes else None,
+        figures=sized.figures,
+    )

@@ -48,6 +48,11 @@ class Design:
     layers: DoubleLayer | None = None
 
     @property
+    def name(self) -> str:
+        """The name of the project, of which every shape has its own."""
+        return self.project.project.name
+
+    @property
     def mesh(self) -> Mesh:
         """The mesh of which the parts are made, trimmed."""
         return self.kit.mesh

@@ -4,7 +4,7 @@ Independent refusals are gathered over all stages and come together, in the orde
 surface, details, parts, stock. A build rehearses too before it begins to search.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from isomould.comparison import planar_rail_of
 from isomould.cutting import member_parts, panel_parts, refuse_bars, refuse_sheets, refuse_stock
@@ -14,7 +14,9 @@ from isomould.family import one_kit, try_shapes
 from isomould.nesting.settings import StockSettings
 from isomould.parts.building import make_shapes
 from isomould.parts.clash import refuse_clashes
-from isomould.parts.solid import make_bodies
+from isomould.parts.panel_sizes import measure_panels, refuse_panel_sizes
+from isomould.parts.panels import PanelParts
+from isomould.parts.plates import Shape
 from isomould.parts.strips import unroll_strips
 from isomould.project.load import LoadedProject
 from isomould.project.schema import MAIN, Project
@@ -24,10 +26,10 @@ Refusing = Callable[[Design], None]
 """Holds a design against something, and refuses it or does nothing."""
 
 
-def refuse_all_clashes(design: Design) -> None:
+def refuse_all_clashes(design: Design, bodies: Sequence[Shape]) -> None:
     """Refuse parts that take each other's space, as a build does with solids that are measured too."""
     kit, settings = design.kit, kit_settings(design.project)
-    refuse_clashes(kit, settings, make_shapes(kit, settings, make_bodies(kit.nodes, kit.joints)))
+    refuse_clashes(kit, settings, make_shapes(kit, settings, bodies))
 
 
 def rehearse(loaded: LoadedProject, further: Refusing = lambda design: None) -> dict[str, Design]:
@@ -73,11 +75,19 @@ def _try_stock(design: TriedDesign, faults: Gathering) -> None:
     stock = design.project.stock or StockSettings()
     faults.run(lambda: refuse_sheets(panel_parts(design.parts.value.panels.value, design.parts.value.mesh), stock))
     faults.run(lambda: refuse_bars(member_parts(design.parts.value.members.value), stock))
+    faults.run(lambda: _refuse_sizes(design.parts.value.panels.value, design.project))
 
 
 def _refuse_stock(design: Design) -> None:
     """Hold the parts of a shape against the stock: nodes in common have changed its members."""
-    refuse_stock(design.kit, design.project.stock or StockSettings())
+    with Gathering() as faults:
+        faults.run(refuse_stock, design.kit, design.project.stock or StockSettings())
+        faults.run(_refuse_sizes, design.kit.panels, design.project)
+
+
+def _refuse_sizes(panels: PanelParts, project: Project) -> None:
+    """Hold panels against the limits of the project."""
+    refuse_panel_sizes(measure_panels(panels, project.panels), project.limits)
 
 
 def _refuse_own_extras(design: Design) -> None:

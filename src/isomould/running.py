@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from isomould.design import Design
+    from isomould.documents.figures import Figure
     from isomould.documents.overview import Fact
     from isomould.documents.table import Table
     from isomould.errors import Note
@@ -52,7 +53,8 @@ class Checked:
 
     `divisions` says of rail and generatrix how their arcs turn, which angles are nearest, and how far the polygon
     lies off the curve. `kit` proves that the shapes of a project are made of one kit of nodes: a row per class, its
-    quantity in every shape, and whether all have it; None for a project of one shape.
+    quantity in every shape, and whether all have it; None for a project of one shape. `figures` are the sizes that
+    are asked for first, with the names of `check --json`.
     """
 
     design: Design
@@ -60,6 +62,7 @@ class Checked:
     divisions: tuple[Division, ...]
     notes: tuple[Note, ...]
     kit: Table | None = None
+    figures: tuple[Figure, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,11 @@ from isomould.cli.options import CHANGES, PROJECT
 @click.command()
 @PROJECT
 @CHANGES
-def check(project: Path, changes: Sequence[str]) -> None:
-    """Compute the design and print its counts; no files are written."""
+@click.option("--json", "as_json", is_flag=True, help="Facts and notes for programs.")
+def check(project: Path, changes: Sequence[str], as_json: bool) -> None:
+    """Compute the design and print its sizes; no files are written."""
     checked = isomould.check(project, changes)
 
-    from isomould.cli.check_printing import print_checked
+    from isomould.cli.check_printing import print_checked, print_json
 
-    print_checked(checked)
+    (print_json if as_json else print_checked)(checked)

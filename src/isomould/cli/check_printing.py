@@ -1,27 +1,43 @@
 """How `check` prints what it found."""
 
+import json
 from collections.abc import Sequence
 
+import click
 from rich.table import Table
 
 from isomould.api import Checked
 from isomould.cli.console import console, warn
 from isomould.documents import table as tables
-from isomould.documents.numbers import format_number
+from isomould.documents.digits import with_unit
+from isomould.documents.figures import Figure
 from isomould.form.survey import Division
 
 
 def print_checked(checked: Checked) -> None:
-    """Print key figures, arcs and kit on the output, and notes on stderr."""
+    """Print sizes, arcs and kit on the output, and notes on stderr."""
     table = Table(box=None, show_header=False)
-    for item, value, unit in checked.facts:
-        table.add_row(item, f"{format_number(value, 6)} {unit}".strip())
+    for figure in checked.figures:
+        table.add_row(figure.label, with_unit(figure.value, figure.unit), figure.where)
     console().print(table)
     console().print(_division_table(checked.divisions))
     if checked.kit is not None:
         console().print(_kit(checked.kit))
     for note in checked.notes:
         warn(f"note: {note}")
+
+
+def print_json(checked: Checked) -> None:
+    """Print facts and notes for programs: unrounded values, notes too are on the output."""
+    facts = {figure.name: _fact(figure) for figure in checked.figures}
+    notes = [{"code": note.code, "field": note.field, "text": note.text} for note in checked.notes]
+    click.echo(json.dumps({"facts": facts, "notes": notes}, indent=1, ensure_ascii=False))
+
+
+def _fact(figure: Figure) -> dict[str, object]:
+    where = {"where": figure.where} if figure.where else {}
+    value = figure.value if isinstance(figure.value, int) else float(figure.value)
+    return {"value": value, "unit": figure.unit, **where}
 
 
 def _kit(kit: tables.Table) -> Table:
@@ -41,7 +57,7 @@ def _division_table(divisions: Sequence[Division]) -> Table:
         table.add_column(heading, overflow="fold")
     for part in divisions:
         nodes = "; ".join(f"{angle.nodes} of {angle.angle_deg:.6f}°" for angle in part.angles)
-        table.add_row(part.field, "", "", "", nodes, f"{part.deviation:.3f} mm")
+        table.add_row(part.field, "", "", "", nodes, with_unit(part.deviation, "mm"))
         for number, arc in enumerate(part.arcs, 1):
             steps = "" if arc.steps is None else f"{arc.steps:.4f}"
             near = "" if arc.nearest_deg is None else f"{arc.nearest_deg:.6f}°"

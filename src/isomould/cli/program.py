@@ -16,7 +16,7 @@ from isomould.errors import IsomouldError, Refused
 
 _COMMANDS = {
     "new": ("new_command", "Start a project file NAME.toml from a template."),
-    "check": ("check_command", "Compute the design and print its counts; no files are written."),
+    "check": ("check_command", "Compute the design and print its sizes; no files are written."),
     "build": ("build_command", "Build a project: cut sheets, schedules, solids, models, and their certificate."),
     "verify": ("verify_command", "Prove a delivered folder, or the layout file of a nest, again from its files."),
     "schedule": ("build_command", "Write the workbook and the tables of a project."),

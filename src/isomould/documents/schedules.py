@@ -5,6 +5,7 @@ Values come from the parts as they are cut: lengths, areas and masses from round
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -17,12 +18,33 @@ from isomould.parts.kit import Kit, KitSettings
 from isomould.parts.members import TURNED
 from isomould.parts.outline import area, sides
 from isomould.parts.settings import MemberSettings, PanelSettings
-from isomould.parts.solid import Solid
 
 Columns = Mapping[str, Sequence[object]]
 
 _KG_PER_MM3 = 1e-9
 """Times density in kg/m³."""
+
+
+class Bulky(Protocol):
+    """What schedules need to know of a node's solid."""
+
+    @property
+    def volume(self) -> float:
+        """Volume in mm³."""
+        ...
+
+    @property
+    def surface(self) -> float:
+        """Area of the surface in mm²."""
+        ...
+
+
+@dataclass(frozen=True)
+class Bulk:
+    """Volume (mm³) and surface (mm²) of a node that was not made as a checked solid."""
+
+    volume: float
+    surface: float
 
 
 @dataclass(frozen=True)
@@ -48,7 +70,7 @@ class OnBar:
 def part_tables(
     kit: Kit,
     settings: KitSettings,
-    solids: tuple[Solid, ...],
+    solids: Sequence[Bulky],
     placed: dict[str, Placed],
     bars: dict[str, OnBar],
     *,
@@ -68,17 +90,29 @@ def part_tables(
         Whether there are shop drawings to name.
     """
     around = find_neighbours(kit.mesh, kit.nodes.arm_rows, kit.arms, kit.panels.edges)
+    nodes, members, panels = class_tables(kit, settings, solids, drawn=drawn)
     return (
-        make_table("nodes", _nodes(kit, settings, solids, drawn=drawn)),
+        nodes,
         make_table("node_instances", _node_instances(kit, around)),
-        make_table("members", _members(kit, settings, drawn=drawn)),
+        members,
         make_table("member_instances", _member_instances(kit, around, bars)),
-        make_table("panels", _panels(kit, settings.panels, drawn=drawn)),
+        panels,
         make_table("panel_instances", _panel_instances(kit, placed)),
     )
 
 
-def _nodes(kit: Kit, settings: KitSettings, solids: tuple[Solid, ...], *, drawn: bool) -> Columns:
+def class_tables(
+    kit: Kit, settings: KitSettings, solids: Sequence[Bulky], *, drawn: bool = False
+) -> tuple[Table, Table, Table]:
+    """Give the tables of the classes of nodes, members and panels."""
+    return (
+        make_table("nodes", _nodes(kit, settings, solids, drawn=drawn)),
+        make_table("members", _members(kit, settings, drawn=drawn)),
+        make_table("panels", _panels(kit, settings.panels, drawn=drawn)),
+    )
+
+
+def _nodes(kit: Kit, settings: KitSettings, solids: Sequence[Bulky], *, drawn: bool) -> Columns:
     nodes, joints, asked = kit.nodes, kit.joints, settings.nodes
     count = len(nodes.marks)
     volume = np.array([solid.volume for solid in solids])

@@ -232,3 +232,15 @@ class CongruenceSettings(Settings):
 
     length: PositiveLength = 0.5
     angle_deg: PositiveNumber = 0.05
+
+
+class PanelLimits(Settings):
+    """What panels may not exceed: part of the `[limits]` table. None leaves trade to be compared with, in notes."""
+
+    max_panel: tuple[PositiveLength, PositiveLength] | None = None
+    """Sides of the smallest rectangle around a panel, either way round."""
+    max_panel_mass: PositiveNumber | None = None
+    """kg"""
+    max_aspect: Annotated[PositiveNumber, Field(ge=1)] | None = None
+    """Longer side by shorter side of that rectangle."""
+    min_corner_deg: Annotated[PositiveNumber, Field(lt=180)] | None = None

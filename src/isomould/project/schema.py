@@ -18,7 +18,7 @@ from isomould.form.settings import (
     SurfaceSettings,
 )
 from isomould.nesting.settings import StockSettings
-from isomould.parts.settings import MemberSettings, NodeSettings, PanelSettings, SlottedSettings
+from isomould.parts.settings import MemberSettings, NodeSettings, PanelLimits, PanelSettings, SlottedSettings
 from isomould.settings import Name, Settings
 from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
 from isomould.writers.names import safe_name
@@ -76,7 +76,7 @@ class ToleranceTable(Settings):
     max_turning_deg: PositiveNumber = 60.0
 
 
-class LimitTable(Settings):
+class LimitTable(PanelLimits):
     """The `[limits]` table."""
 
     max_panels: PositiveCount = 200_000
