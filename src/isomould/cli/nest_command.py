@@ -94,7 +94,10 @@ _OF_BARS = {"bar", "bar_kerf", "bar_trim", "bar_ends"}
 @click.option("--saw-list", type=click.Path(path_type=Path), help="Saw list of members to write, .csv or .xlsx.")
 @click.option("--replace", "overwrite", is_flag=True, help="Replace the sheets of an earlier run.")
 @click.option("--units", type=_UNITS, help="Of drawings and tables that do not say their own.")
-@click.option("--layer", default="CUT", show_default=True, help="Where drawings have their outline.")
+@click.option("--layer", help="Where drawings have their outline; else CUT, or the only layer.")
+@click.option("--inner-layer", "inner_layers", multiple=True, help="Another layer of holes than CUT_INNER and DRILL.")
+@click.option("--ignore-layer", "ignored_layers", multiple=True, help="A layer whose closed curves are not cut.")
+@click.option("--join", type=_LENGTH, help="How far ends of drawn curves may be apart that join.")
 @click.option("--column", "columns", type=_COLUMN, multiple=True, help="Such as id=Label: what a heading means.")
 @click.option("--quiet", is_flag=True, help="No progress.")
 def nest(

@@ -1,215 +1,183 @@
-"""The drawing of one part (DXF): its outline as a polygon, and its holes.
+"""Drawings of parts (DXF) as people have them: outlines as polygons, and the holes in them.
 
-Arcs of the outline become polygons outside of it, tangents where it bulges out and chords where it bulges in, so that
-no part is ever cut smaller than it was drawn.
+Every closed loop on the outline's layer counts: one that no other holds is the outline of a part, one inside it a hole.
+Nothing that would be cut is left out with a note alone: what cannot be a part or a hole of it is refused.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 import shapely
 
 from isomould.arrays import Floats, round_um
-from isomould.curves.chains import Stroke
-from isomould.curves.drawn import the_one_chain
-from isomould.curves.dxf import open_dxf_source
-from isomould.curves.joining import JOIN
-from isomould.curves.layer_names import layer_key
-from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.pieces import Ellipse, Line, Piece
-from isomould.curves.spatial import Traced, laid_flat
-from isomould.documents.drawing import Circle, Polyline, chords
-from isomould.errors import Refused
+from isomould.documents.drawing import Circle, Polyline
+from isomould.errors import Note, Refused
+from isomould.intake.flattening import OUTWARD, bulge_angle, flat_points, is_round, polygon_around
+from isomould.intake.least_box import odd_angle, rotation
+from isomould.intake.part_layers import DRILLED, DrawnLoops, LayerChoice, read_loops
 from isomould.intake.part_list import Hole
-from isomould.units import LengthUnit
+from isomould.intake.part_loops import Loop, Nested, nest_loops
 
-OUTWARD = 0.05
-"""How far the polygon may lie outside an arc, mm."""
+_CENTRES = 1e-6
+"""How far the centres of arcs may be apart that make one circle, and their radii, mm."""
 
-_STEP = 0.001
-"""What points beside an arc keep off it, so that rounding brings none of them inside, mm."""
-
-_INNER, _DRILLED = "CUT_INNER", "DRILL"
-_SILENT = {"ENGRAVE", "INFO", "SHEET", "DEFPOINTS"}
-"""Layers that say nothing of what is cut."""
+_FAR = 1e5
+"""A part further from the origin is moved there, mm: where it was drawn does not matter."""
 
 
 @dataclass(frozen=True, eq=False)
 class DrawnPart:
-    """An outline (n, 2) mm, counter-clockwise, its holes, whether arcs were replaced, and layers that were not read."""
+    """An outline (n, 2) mm, counter-clockwise, its holes, and what is not as drawn: codes and texts of notes."""
 
     outline: Floats
     holes: tuple[Hole, ...]
-    rounded: bool
-    ignored: tuple[str, ...]
+    remarks: tuple[tuple[str, str], ...]
 
 
-def read_drawn_part(path: Path, layer: str, units: LengthUnit | None) -> DrawnPart:
-    """Read the drawing of one part: its outline on one layer, closed contours on CUT_INNER, circles on DRILL.
+@dataclass(frozen=True, eq=False)
+class PartDrawing:
+    """The parts of a drawing, from left to right, and what should be known of the file."""
+
+    parts: tuple[DrawnPart, ...]
+    notes: tuple[Note, ...]
+
+
+def read_part_drawing(path: Path, choice: LayerChoice, *, turns: bool) -> PartDrawing:
+    """Read the parts of a drawing.
 
     Parameters
     ----------
     path
-        A DXF file with one closed outline of lines and arcs.
-    layer
-        The layer of the outline.
-    units
-        Of a drawing that does not say ($INSUNITS 0).
+        A drawing with one outline or several.
+    turns
+        Whether a part that is drawn at an odd angle is turned to its least box.
 
     Raises
     ------
     Refused
-        E-DXF-… and E-DRAWN-… as any drawing; E-PART-OPEN, E-PART-CURVE, E-PART-HOLE.
+        E-DXF-… and E-DRAWN-… as any drawing; E-PART-OPEN, -TWICE, -CROSS, -HOLE, and -LAYER for a closed loop in a part
+        on a layer that is not read.
     """
     field = str(path)
-    (outer, inner, drilled), others = _traced_layers(path, (layer, _INNER, _DRILLED), units, field)
-    pieces = _outline_pieces(outer, field)
-    outline = _outside(pieces, field)
-    holes = (*_contours(inner, field), *(_drilled(one, field) for one in drilled))
-    _refuse_stray(holes, outline, field)
-    ignored = tuple(name for name in others if name.upper() not in _SILENT)
-    return DrawnPart(outline, holes, any(isinstance(piece, Ellipse) for piece in pieces), ignored)
+    drawn = read_loops(path, choice)
+    nested = nest_loops(drawn.outer, drawn.inner, drawn.join, field)
+    _refuse_stray(drawn, nested, field)
+    several = f"{len(nested)} outlines, each a part of its own, from left to right"
+    notes = (*drawn.notes, *([Note("W-PART-SEVERAL", field, several)] if len(nested) > 1 else []))
+    return PartDrawing(tuple(_drawn_part(one, turns=turns) for one in nested), notes)
 
 
-def _traced_layers(
-    path: Path, layers: Sequence[str], units: LengthUnit | None, field: str
-) -> tuple[list[list[Traced]], list[str]]:
-    """Give what is drawn on each of some layers, from one origin, and the names of all others that hold anything."""
-    source = open_dxf_source(path, units, field)
-    drawn = [source.trace(layer).traced if k == 0 or source.holds(layer) else [] for k, layer in enumerate(layers)]
-    origin = origin_of([one for traced in drawn for one in traced])
-    known = {layer_key(layer) for layer in layers}
-    others = [content.name for content in source.layers() if content.kinds and layer_key(content.name) not in known]
-    return [seen_from(traced, origin) for traced in drawn], sorted(others)
+def _refuse_stray(drawn: DrawnLoops, nested: Sequence[Nested], field: str) -> None:
+    """Refuse a closed loop in the material of a part on a layer that is not read: it might be a hole."""
+    bodies = [_body(one) for one in nested]
+    tree = shapely.STRtree(bodies)
+    for loop in drawn.stray:
+        shape = loop.polygon.buffer(0)
+        near = tree.query(shape, predicate="intersects").tolist()
+        if any(_takes_from(shape, bodies[k], drawn.join) for k in near):
+            found = f"{loop.name} on layer {loop.layer!r} is closed and lies in the part at {loop.place}"
+            way_out = (
+                f'Give --inner-layer "{loop.layer}" if it is a hole, --ignore-layer "{loop.layer}" if it is not cut.'
+            )
+            raise Refused("E-PART-LAYER", field, found, "loops on layers that are read, or left out by name", way_out)
 
 
-def _chained(strokes: list[Stroke[Piece]], field: str) -> tuple[tuple[Piece, ...], bool]:
-    chain, _ = the_one_chain(strokes, JOIN, field)
-    return chain.pieces, chain.closed
+def _body(one: Nested) -> shapely.Polygon:
+    holes = [shapely.get_coordinates(hole.polygon.exterior) for hole in one.holes]
+    return shapely.Polygon(one.outline.polygon.exterior, holes)
 
 
-def _outline_pieces(traced: list[Traced], field: str) -> tuple[Piece, ...]:
-    """Give the pieces of the outline in order, counter-clockwise."""
-    strokes, _ = laid_flat(traced, None, field, JOIN)
-    pieces, closed = _chained(strokes, field)
-    if not closed:
-        apart = float(np.hypot(*(_start(pieces[0]) - _end(pieces[-1]))))
-        names = ", ".join(stroke.name for stroke in strokes[:4])
-        found = f"{names}: the outline is open, its ends are {apart:.6g} mm apart"
-        _refuse("OPEN", field, found, f"a closed outline, within {JOIN:g} mm", "Close it in CAD and save again.")
-    return pieces if _turning(pieces) > 0 else tuple(piece.reversed() for piece in pieces[::-1])
+def _takes_from(shape: shapely.Polygon, body: shapely.Polygon, join: float) -> bool:
+    """Tell whether a loop is neither a copy of an outline or hole, nor a frame around the part."""
+    room = join + 0.02
+    if shape.buffer(room).contains(shapely.Polygon(body.exterior)):
+        return False
+    return shape.intersection(body).area > room * shape.length
 
 
-def _turning(pieces: Sequence[Piece]) -> float:
-    """Give twice the area that the pieces go round, positive counter-clockwise; arcs as chords."""
-    points = np.concatenate([piece.point(np.linspace(0, 1, 17)[:-1]) for piece in pieces])
-    x, y = (points - points[0]).T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+# --- one part
 
 
-def _start(piece: Piece) -> Floats:
-    return piece.point(np.zeros(1))[0]
+def _drawn_part(one: Nested, *, turns: bool) -> DrawnPart:
+    corners = shapely.get_coordinates(one.outline.polygon.exterior)[:-1]
+    angle = odd_angle(corners) if turns else 0.0
+    corner = corners.min(axis=0)
+    place = -np.round(corner) if np.abs(corner).max() > _FAR else np.zeros(2)
+    outline, *holes = [_moved(loop, place, angle) for loop in (one.outline, *one.holes)]
+    remarks = [
+        *_remark(
+            "W-PART-ARC", f"arcs are cut as lines up to {OUTWARD:g} mm outside", any(map(is_round, outline.pieces))
+        ),
+        *_remark(
+            "W-PART-CURVE", _CURVES_CUT, any(_is_free(piece) for loop in (outline, *holes) for piece in loop.pieces)
+        ),
+        *_remark("W-PART-TURNED", f"turned by {math.degrees(angle):.3f}° to the least box", angle != 0),
+    ]
+    return DrawnPart(polygon_around(outline.pieces), tuple(_hole(loop) for loop in holes), tuple(remarks))
 
 
-def _end(piece: Piece) -> Floats:
-    return piece.point(np.ones(1))[0]
+_CURVES_CUT = f"splines and ellipses are cut as lines up to {OUTWARD:g} mm outside of the outline or inside of the hole"
 
 
-def _outside(pieces: Sequence[Piece], field: str) -> Floats:
-    points = np.concatenate([_piece_points(piece, field) for piece in pieces])
-    rounded = round_um(points)
-    return rounded[(rounded != np.roll(rounded, 1, axis=0)).any(axis=1)]
+def _remark(code: str, text: str, applies: bool) -> list[tuple[str, str]]:
+    return [(code, text)] if applies else []
 
 
-def _piece_points(piece: Piece, field: str) -> Floats:
-    """Give the points of a piece without its end: of an arc, those of a polygon outside it."""
-    if isinstance(piece, Line):
-        return np.array([piece.start])
-    arc = _circular(piece, field)
-    radius, turn = float(np.hypot(*arc.major)), _bulge_angle(arc)
-    if turn > 0:
-        step = 2 * math.acos(radius / (radius + OUTWARD - _STEP))
-        count = max(math.ceil(abs(turn) / step), 3)
-        shares, reach = (np.arange(count) + 0.5) / count, radius / math.cos(turn / count / 2) + _STEP
-    else:
-        step = 2 * math.acos(max(1 - (OUTWARD - _STEP) / radius, 0.0))
-        count = max(math.ceil(abs(turn) / step), 1)
-        shares, reach = np.arange(1, count) / count, radius - _STEP
-    centre = np.array(arc.centre)
-    return np.vstack([_start(arc), centre + (arc.point(shares) - centre) * (reach / radius)])
+def _is_free(piece: Piece) -> bool:
+    return not isinstance(piece, Line) and not is_round(piece)
 
 
-def _bulge_angle(arc: Ellipse) -> float:
-    """Give the angle of an arc, rad, positive to the left."""
-    side = arc.major[0] * arc.minor[1] - arc.major[1] * arc.minor[0]
-    return math.copysign(1.0, side) * (arc.end - arc.start)
+def _moved(loop: Loop, place: Floats, angle: float) -> Loop:
+    """Move a loop, then turn it about the origin."""
+    if angle == 0 and not place.any():
+        return loop
+    turn = rotation(angle)
+    return Loop(tuple(piece.mapped(turn, turn @ place) for piece in loop.pieces), loop.name, loop.layer)
 
 
-def _circular(piece: Piece, field: str) -> Ellipse:
-    """Give an arc of a circle; splines and ellipses have no tangents that a shop would recognise."""
-    if not isinstance(piece, Ellipse) or not _is_round(piece):
-        found = f"a {piece.kind} that is no line and no arc of a circle"
-        _refuse("CURVE", field, found, "lines and arcs", "Convert splines and ellipses to polylines outside of them.")
-    return piece
+def _hole(loop: Loop) -> Hole:
+    """Give a hole as it is cut: a circle of DRILL is drilled, everything else is a contour, clockwise."""
+    circle = _circle_of(loop.pieces)
+    if circle is not None and loop.layer.casefold() == DRILLED.casefold():
+        return circle
+    pieces = [piece.reversed() for piece in loop.pieces[::-1]]
+    corners = [corner for piece in pieces for corner in _contour(piece)]
+    points = round_um(np.array([point for point, _ in corners]))
+    bulges = np.array([bulge for _, bulge in corners])
+    apart = (points != np.roll(points, -1, axis=0)).any(axis=1)
+    return Polyline("CUT_INNER", points[apart], True, bulges[apart] if bulges.any() else None)
 
 
-def _is_round(piece: Ellipse) -> bool:
-    one, other = math.hypot(*piece.major), math.hypot(*piece.minor)
-    return abs(one - other) <= 1e-9 * one and abs(np.dot(piece.major, piece.minor)) <= 1e-9 * one * other
+def _circle_of(pieces: Sequence[Piece]) -> Circle | None:
+    """Give the circle that a closed chain of arcs is, or none."""
+    arcs = [piece for piece in pieces if isinstance(piece, Ellipse) and is_round(piece)]
+    if len(arcs) < len(pieces):
+        return None
+    radii = np.array([math.hypot(*arc.major) for arc in arcs])
+    centres = np.array([arc.centre for arc in arcs])
+    if np.ptp(radii) > _CENTRES or np.ptp(centres, axis=0).max() > _CENTRES:
+        return None
+    x, y = round_um(centres[0]).tolist()
+    return Circle("DRILL", (x, y), float(radii[0]))
 
 
-def _contours(traced: list[Traced], field: str) -> list[Polyline]:
-    """Give the inner contours: every entity of CUT_INNER has to be a closed one."""
-    strokes = laid_flat(traced, None, field, JOIN)[0] if traced else []
-    found = list[Polyline]()
-    for stroke in strokes:
-        pieces, closed = _chained([stroke], field)
-        if not closed:
-            _refuse("HOLE", field, f"{stroke.name} on {_INNER} is open", "closed contours", "Close it in CAD.")
-        points = round_um(np.array([_start(piece) for piece in _halved(pieces)]))
-        bulges = np.array([_bulge(piece, field) for piece in _halved(pieces)])
-        found.append(Polyline(_INNER, points, True, bulges if bulges.any() else None))
-    return found
+def _contour(piece: Piece) -> list[tuple[Floats, float]]:
+    """Give the corners of a contour along a piece, each with the bulge that follows it."""
+    if not isinstance(piece, Ellipse) or not is_round(piece):
+        return [(point, 0.0) for point in flat_points(piece)]
+    return [(half.point(np.zeros(1))[0], math.tan(bulge_angle(half) / 4)) for half in _halves(piece)]
 
 
-def _halved(pieces: Sequence[Piece]) -> list[Piece]:
-    """Cut a full circle in two: a bulge holds less than that."""
-    if len(pieces) > 1 or not isinstance(pieces[0], Ellipse):
-        return list(pieces)
-    arc = pieces[0]
+def _halves(arc: Ellipse) -> list[Ellipse]:
+    """Cut an arc of more than half a circle in two: a bulge of 1 is the most that all machines read."""
+    if abs(arc.end - arc.start) <= math.pi * (1 + 1e-9):
+        return [arc]
     middle = (arc.start + arc.end) / 2
     return [
         Ellipse(arc.centre, arc.major, arc.minor, arc.start, middle),
         Ellipse(arc.centre, arc.major, arc.minor, middle, arc.end),
     ]
-
-
-def _bulge(piece: Piece, field: str) -> float:
-    return 0.0 if isinstance(piece, Line) else math.tan(_bulge_angle(_circular(piece, field)) / 4)
-
-
-def _drilled(traced: Traced, field: str) -> Circle:
-    (piece,) = laid_flat([traced], None, field, JOIN)[0][0].pieces[:1]
-    if not isinstance(piece, Ellipse) or abs(_bulge_angle(_circular(piece, field))) < 2 * math.pi - 1e-9:
-        _refuse("HOLE", field, f"{traced.name} on {_DRILLED} is no circle", "circles", "Move it to CUT_INNER.")
-    x, y = round_um(np.array(piece.centre)).tolist()
-    return Circle(_DRILLED, (x, y), math.hypot(*piece.major))
-
-
-def _refuse_stray(holes: Sequence[Hole], outline: Floats, field: str) -> None:
-    part = shapely.Polygon(outline)
-    for hole in holes:
-        drawn = shapely.Point(hole.centre) if isinstance(hole, Circle) else shapely.Polygon(chords(hole))
-        shape = drawn.buffer(hole.radius) if isinstance(hole, Circle) else drawn
-        if part.is_valid and not part.contains(shape):
-            x, y = shape.representative_point().coords[0]
-            found = f"the hole at {x:.3f}, {y:.3f} mm on {hole.layer} reaches out of the outline"
-            _refuse("HOLE", field, found, "holes inside the outline", "Correct the drawing.")
-
-
-def _refuse(what: str, field: str, found: str, limit: str, way_out: str) -> NoReturn:
-    raise Refused(f"E-PART-{what}", field, found, limit, way_out)

@@ -2,23 +2,23 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NoReturn, get_args
 
-from isomould.arrays import Floats
-from isomould.errors import Note
 from isomould.intake.csv_list import Sheet, read_sheet
-from isomould.intake.drawn_part import OUTWARD, DrawnPart, read_drawn_part
-from isomould.intake.hole_rings import ring_around
+from isomould.intake.drawn_part import PartDrawing, read_part_drawing
+from isomould.intake.drawn_rows import drawn_rows, with_drawings
 from isomould.intake.instance import Instance, make_stock, read_instance
 from isomould.intake.numbers import to_count
+from isomould.intake.part_layers import LayerChoice
 from isomould.intake.part_list import PartList
 from isomould.intake.part_rows import TRAPEZOID, Row, read_parts, refuse
 from isomould.intake.rectangles import Sides, box_note, rectangle, sides_of
 from isomould.intake.table_rows import is_table
 from isomould.intake.table_words import PARTS, Line, Reading
-from isomould.nesting.layout import Part
+from isomould.intake.words import listed
+from isomould.nesting.settings import StockSettings
 from isomould.units import LengthUnit
 
 QUANTITIES = "parts.csv"
@@ -29,17 +29,29 @@ _NAMED = re.compile(r"(?P<id>.+?)[ _-](?:x(?P<after>\d+)|(?P<before>\d+)x)", re.
 
 @dataclass(frozen=True)
 class Asked:
-    """What a user says beside the part list: keys of the `[stock]` table, units, the layer of outlines, columns."""
+    """What a user says beside the part list: keys of the `[stock]` table, units, columns, and of drawings.
+
+    `layer` is that of outlines, else CUT or the only one; `inner_layers` hold holes, `ignored_layers` what is not cut;
+    `join` is how far ends may be apart that join, mm.
+    """
 
     stock: Mapping[str, Any] = field(default_factory=dict[str, Any])
     units: LengthUnit | None = None
-    layer: str = "CUT"
+    layer: str | None = None
     columns: Mapping[str, str] = field(default_factory=dict[str, str])
+    inner_layers: tuple[str, ...] = ()
+    ignored_layers: tuple[str, ...] = ()
+    join: float | None = None
 
     @property
     def reading(self) -> Reading:
         """What of it concerns tables."""
         return Reading(self.units, self.columns)
+
+    @property
+    def choice(self) -> LayerChoice:
+        """What of it concerns drawings."""
+        return LayerChoice(self.layer, self.inner_layers, self.ignored_layers, self.units, self.join)
 
 
 def read_part_list(path: Path, asked: Asked | None = None) -> PartList:
@@ -72,8 +84,7 @@ def _refuse_units(asked: Asked) -> None:
 
 def _read_table(path: Path, asked: Asked) -> PartList:
     sheet = read_sheet(path, PARTS, asked.reading)
-    drawn = {line.field: read_drawn_part(file, asked.layer, asked.units) for line, file in _files(sheet, path.parent)}
-    return _made(path.stem, sheet, drawn, asked)
+    return _made(path.stem, sheet, {line.field: file for line, file in _files(sheet, path.parent)}, asked)
 
 
 def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
@@ -90,22 +101,28 @@ def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
             yield line, found
 
 
-def _made(name: str, sheet: Sheet, drawn: Mapping[str, DrawnPart], asked: Asked) -> PartList:
-    """Make the parts of a table, some of them drawn."""
-    sides = sides_of(sheet)
-    rows = [_row(sheet, line, drawn.get(line.field), sides) for line in sheet.lines]
-    parts = read_parts(rows, sheet.file)
-    instance = Instance(name, parts, make_stock(asked.stock, sheet.file))
+def _made(name: str, sheet: Sheet, files: Mapping[str, Path], asked: Asked) -> PartList:
+    """Make the parts of a table, some of them drawn; `files` by the field of their line."""
+    sides, stock = sides_of(sheet), make_stock(asked.stock, sheet.file)
+    drawn = {key: _drawing(file, asked, stock) for key, file in files.items()}
+    rows = [row for line in sheet.lines for row in _rows(sheet, line, drawn.get(line.field), sides)]
+    instance = Instance(name, read_parts(rows, sheet.file), stock)
     notes = (*sheet.notes, *box_note(sheet, sides))
-    return _with_drawings(instance, [drawn.get(line.field) for line in sheet.lines], notes)
+    return with_drawings(instance, {line.cells["id"]: drawn.get(line.field) for line in sheet.lines}, notes)
 
 
-def _row(sheet: Sheet, line: Line, drawn: DrawnPart | None, sides: Sides | None) -> Row:
+def _drawing(file: Path, asked: Asked, stock: StockSettings) -> PartDrawing:
+    """Read a drawing; where material has a direction, parts stay as they are drawn."""
+    free = stock.turning == "quarter" and not any(sheet.grain for sheet in stock.sheets)
+    return read_part_drawing(file, asked.choice, turns=free)
+
+
+def _rows(sheet: Sheet, line: Line, drawing: PartDrawing | None, sides: Sides | None) -> list[Row]:
     group = {"row": line.cells["row"]} if line.cells.get("row") else {}
     table = {"id": line.cells["id"], "quantity": sheet.quantity(line), **group}
-    if drawn is not None:
-        return {**table, "points": drawn.outline.tolist()}, line.field
-    return {**table, **_shape(sheet, line, sides)}, line.field
+    if drawing is not None:
+        return drawn_rows(table, drawing, line.field)
+    return [({**table, **_shape(sheet, line, sides)}, line.field)]
 
 
 def _shape(sheet: Sheet, line: Line, sides: Sides | None) -> dict[str, Any]:
@@ -130,29 +147,6 @@ def _refuse_shapeless(sheet: Sheet, line: Line) -> NoReturn:
     limit = "two of length, width and height, or a, b, h, ol and orr, or points, or files"
     way_out = f"Say --column {'width' if 'length' in sizes else 'length'}=HEADING, or name the column so."
     refuse(sheet.file, found, limit, way_out)
-
-
-def _with_drawings(instance: Instance, drawn: Sequence[DrawnPart | None], notes: tuple[Note, ...]) -> PartList:
-    """Add the holes of the drawings, and say what of them is not as drawn."""
-    pairs = [(part, one) for part, one in zip(instance.parts, drawn, strict=True) if one is not None]
-    holes = {part.id: one.holes for part, one in pairs if one.holes}
-    rings = {mark: tuple(ring_around(hole) for hole in cut) for mark, cut in holes.items()}
-    parts = tuple(replace(part, holes=rings.get(part.id, ())) for part in instance.parts)
-    rounded = [str(part.id) for part, one in pairs if one.rounded]
-    ignored = sorted({layer for _, one in pairs for layer in one.ignored})
-    more = [
-        *(
-            [Note("W-PART-ARC", _listed(rounded), f"arcs are cut as lines up to {OUTWARD:g} mm outside")]
-            if rounded
-            else []
-        ),
-        *([Note("W-PART-LAYER", instance.name, f"layers not read: {_listed(ignored)}")] if ignored else []),
-    ]
-    return PartList(replace(instance, parts=parts), holes, (*notes, *more))
-
-
-def _listed(names: Sequence[str]) -> str:
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
 
 
 # --- a folder of drawings
@@ -189,10 +183,9 @@ def _read_listed(table: Path, drawings: Sequence[Path], asked: Asked) -> PartLis
             )
     left = {path.resolve() for path in drawings} - {file.resolve() for file in files.values() if file}
     if left:
-        found = f"no row for {_listed(sorted(path.name for path in left))}"
+        found = f"no row for {listed(sorted(path.name for path in left))}"
         refuse(str(table), found, "every drawing of the folder", "Add the rows, or move the drawings away.")
-    drawn = {key: read_drawn_part(file, asked.layer, asked.units) for key, file in files.items() if file}
-    return _made(drawings[0].parent.name, sheet, drawn, asked)
+    return _made(drawings[0].parent.name, sheet, {key: file for key, file in files.items() if file}, asked)
 
 
 def _read_named(folder: Path, drawings: Sequence[Path], asked: Asked) -> PartList:
@@ -201,14 +194,12 @@ def _read_named(folder: Path, drawings: Sequence[Path], asked: Asked) -> PartLis
     silent = [path.name for path, match in names.items() if match is None]
     if silent:
         way_out = f"Add {QUANTITIES} with the columns id and quantity, or name the files like P01_x4.dxf."
-        refuse(str(folder), f"how many of {_listed(silent)}?", "a quantity for every drawing", way_out)
-    drawn = {path: read_drawn_part(path, asked.layer, asked.units) for path in drawings}
-    rows = [_named_row(match["id"], match["after"] or match["before"], path, drawn[path].outline)
-            for path, match in names.items() if match]  # fmt: skip
-    parts: tuple[Part, ...] = read_parts(rows, str(folder))
-    instance = Instance(folder.resolve().name, parts, make_stock(asked.stock, str(folder)))
-    return _with_drawings(instance, list(drawn.values()), ())
-
-
-def _named_row(mark: str, quantity: str, path: Path, outline: Floats) -> Row:
-    return {"id": mark, "quantity": to_count(quantity, str(path)), "points": outline.tolist()}, str(path)
+        refuse(str(folder), f"how many of {listed(silent)}?", "a quantity for every drawing", way_out)
+    stock = make_stock(asked.stock, str(folder))
+    drawn, rows = dict[str, PartDrawing | None](), list[Row]()
+    for path, match in names.items():
+        if match is not None:
+            quantity = to_count(match["after"] or match["before"], str(path))
+            drawn[match["id"]] = drawing = _drawing(path, asked, stock)
+            rows += drawn_rows({"id": match["id"], "quantity": quantity}, drawing, str(path))
+    return with_drawings(Instance(folder.resolve().name, read_parts(rows, str(folder)), stock), drawn, ())
