@@ -214,7 +214,7 @@ def nest(
     from isomould.intake.member_list import lists_members, read_member_list
     from isomould.intake.read import Asked, read_part_list
     from isomould.intake.stock import read_stock
-    from isomould.nesting.nest import nest_sheets
+    from isomould.nesting.irregular import nest_parts
     from isomould.nesting.search import Search
     from isomould.nesting.stop import Stop
     from isomould.workers import workers
@@ -222,7 +222,8 @@ def nest(
     stop, files = stop or Stop(), files or NestFiles()
     targets = Targets(Path(out), files.sheets, files.plan, files.saw_list, files.overwrite)
     stock = {**(read_stock(files.stock) if files.stock else {}), **files.changes}
-    asked = Asked(stock, files.units, files.layer, files.columns)
+    layers = (files.inner_layers, files.ignored_layers)
+    asked = Asked(stock, files.units, files.layer, files.columns, *layers, files.join)
     members = lists_members(Path(instance), asked.reading, stock)
     check_targets(targets, "members" if members else "parts")
     refuse_overwriting(targets, [Path(instance), *([files.stock] if files.stock else [])])
@@ -233,7 +234,10 @@ def nest(
     given = read_part_list(Path(instance), asked)
     for note in given.notes:
         (remark or _ignore)(note)
-    layout = _marked(nest_sheets(given.instance.parts, given.instance.stock, search), stop)
+    found = nest_parts(given.instance.parts, given.instance.stock, search)
+    for note in found.notes:
+        (remark or _ignore)(note)
+    layout, given = _marked(found.layout, stop), replace(given, instance=replace(given.instance, stock=found.stock))
     with workers(jobs) as spread:
         publish_nest(targets, layout, given, spread)
     return layout

@@ -84,9 +84,14 @@ class NestFiles:
     overwrite
         Whether a folder of earlier sheets may be replaced.
     units, layer
-        Of drawings and tables that do not say their unit; where drawings have their outline.
+        Of drawings and tables that do not say their unit; where drawings have their outline: else CUT, or the only
+        layer.
     columns
         Headings of a table by what they mean, such as `{"id": "Label"}`; others are found by the words of the trade.
+    inner_layers, ignored_layers
+        Layers of drawings with holes, beside CUT_INNER and DRILL, and with closed curves that are not cut.
+    join
+        How far ends of drawn curves may be apart that join, mm; else 0.01 or what the file's digits lose.
     """
 
     stock: Path | None = None
@@ -96,5 +101,8 @@ class NestFiles:
     saw_list: Path | None = None
     overwrite: bool = False
     units: LengthUnit | None = None
-    layer: str = "CUT"
+    layer: str | None = None
     columns: Mapping[str, str] = field(default_factory=dict[str, str])
+    inner_layers: tuple[str, ...] = ()
+    ignored_layers: tuple[str, ...] = ()
+    join: float | None = None

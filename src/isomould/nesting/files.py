@@ -50,6 +50,7 @@ def layout_to_json(layout: Layout, more: Mapping[str, Any] = NOTHING_MORE) -> st
         "placements": [_placement(item) for item in layout.placements],
         "unplaced": [_unplaced(item) for item in layout.unplaced],
         "cut_tree": layout.cut_trees or None,
+        "cut_tree_reason": layout.no_cuts,
         **more,
     }
     return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"
@@ -107,6 +108,7 @@ def _layout(table: dict[str, Any]) -> Layout:
         placements=tuple(_read_placement(item) for item in table["placements"]),
         unplaced=tuple(_read_unplaced(item) for item in table["unplaced"]),
         cut_trees=table["cut_tree"] or {},
+        no_cuts=table.get("cut_tree_reason"),
         cut_length=table["cut_length_mm"],
         offcut=Offcut(**table["offcut"]) if table["offcut"] else None,
         **{key: table[key] for key in _PLAIN},

@@ -113,6 +113,8 @@ class Layout:
         Of all sheets.
     cut_trees
         Names for every sheet id the guillotine cuts in order; empty if the layout has none.
+    no_cuts
+        Why it has none.
     cuts, cut_length
         Straight cuts of the trees, the trim's not counted, and their length in mm.
     offcut
@@ -135,6 +137,7 @@ class Layout:
     cut_length: float = 0.0
     offcut: Offcut | None = None
     yield_with_offcut_percent: float = 0.0
+    no_cuts: str | None = None
 
     @property
     def gap_to_bound(self) -> int:

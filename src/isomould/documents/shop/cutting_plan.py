@@ -124,6 +124,8 @@ def _headlines(plan: _Plan) -> list[str]:
     if layout.cuts:
         length = length_text(layout.cut_length)
         found.append(f"{layout.cuts} cuts from edge to edge, {length} mm; the trim is not counted")
+    if layout.no_cuts:
+        found.append(f"No cuts from edge to edge: {layout.no_cuts}")
     if layout.status != "complete" or not layout.reproducible:
         found.append(f"Status {layout.status}{'' if layout.reproducible else '; stopped early, not reproducible'}")
     return found

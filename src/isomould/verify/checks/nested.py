@@ -8,13 +8,13 @@ import numpy as np
 
 from isomould.verify.checks.cutting_plan import Row, plan_faults
 from isomould.verify.checks.drawings import drawing_faults
-from isomould.verify.checks.nesting import LENGTH
+from isomould.verify.checks.nesting import LENGTH, shortfall
 from isomould.verify.delivery import Delivery
 from isomould.verify.planar import loop_distance, quarter_turned, signed_area
 from isomould.verify.read.dxf import Drawing, Outline, one_outline, outlines_on
 from isomould.verify.read.layout import Placement
 from isomould.verify.read.tables import half_unit
-from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, faults, worst_of
+from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, faults, worse, worst_of
 
 
 def presence(delivery: Delivery) -> Measured:
@@ -147,9 +147,27 @@ def _offcut(delivery: Delivery, size: tuple[float, float], points: Floats) -> tu
     return best if min(best) > 0 else (0.0, 0.0)
 
 
+def placed_gaps(delivery: Delivery) -> Measured:
+    """How far the clear distance of two placed parts falls short of the asked gap, sheets drawn or not."""
+    gap, on = float(delivery.nesting["gap_mm"]), delivery.layout.on
+    found = [shortfall(name, [item.points for item in on(name)], gap) for name in delivery.layout.sheets]
+    return worse(*found)
+
+
+def placed_margins(delivery: Delivery) -> Measured:
+    """How far a placed part reaches into the trim of its sheet."""
+    trim, over = float(delivery.nesting["trim_mm"]), list[float]()
+    for name, size in delivery.layout.sheets.items():
+        points = np.concatenate([item.points for item in delivery.layout.on(name)])
+        over.append(max(float((trim - points).max()), float((points + trim - np.array(size)).max()), 0.0))
+    return worst_of(over, list(delivery.layout.sheets))
+
+
 RULES = (
     Rule("V31", "every part is placed or listed as often as asked for", 0, "faults", presence),
     Rule("V32b", "holes lie in their parts as drawn", LENGTH, "mm", holes),
+    Rule("V33f", "gap between parts as they are placed", LENGTH, "mm short", placed_gaps),
+    Rule("V33g", "parts as they are placed keep off the trim", LENGTH, "mm over", placed_margins),
     Rule("V34b", "yield of the layout", half_unit("yield_percent"), "%", yields),
     Rule("V40", "sheets are what machines can read", 0, "faults", machine_files),
     Rule("V45f", "the cutting plan shows every sheet as it lies", 0, "faults", planned),

@@ -95,12 +95,13 @@ def _distortion(delivery: Delivery, placed: Placement) -> float:
 def gaps(delivery: Delivery) -> Measured:
     """How far the clear distance of two contours on a sheet falls short of the asked gap."""
     gap = float(delivery.nesting["gap_mm"])
-    found = [_shortfall(sheet, contours(delivery, drawing), gap) for sheet, drawing in delivery.sheets.items()]
-    return worse(*found)
+    drawn = {name: [one.points for one in contours(delivery, sheet)] for name, sheet in delivery.sheets.items()}
+    return worse(*(shortfall(name, outlines, gap) for name, outlines in drawn.items()))
 
 
-def _shortfall(sheet: str, outlines: list[Outline], gap: float) -> Measured:
-    shapes = [shapely.Polygon(outline.points) for outline in outlines]
+def shortfall(sheet: str, outlines: list[Floats], gap: float) -> Measured:
+    """Give how much the closest outlines (n, 2) of a sheet lack to the gap; infinite where two overlap."""
+    shapes = [shapely.Polygon(points) for points in outlines]
     if not all(shape.is_valid for shape in shapes):
         return Measured(len(shapes), np.inf, sheet)
     a, b = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=gap + 1.0)

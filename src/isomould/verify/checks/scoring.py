@@ -43,11 +43,11 @@ def _nearest(part: Loop, pieces: tuple[Loop, ...]) -> float:
 
 def ordered(delivery: Delivery) -> Measured:
     """Cuts of the cutting tree that are not scored, or not in its order."""
-    trees = delivery.layout.raw.get("cut_tree")
+    drawings, trees = _scored(delivery), delivery.layout.raw.get("cut_tree")
     if not trees:
         raise Unreadable("there is no cutting tree")
     problems, count = list[str](), 0
-    for name, drawing in _scored(delivery).items():
+    for name, drawing in drawings.items():
         asked = list(chords(trees[name], _room(delivery, name)))
         scored = _lines(drawing)
         at = [next((k for k, line in enumerate(scored) if _same(cut, line)), -1) for cut in asked]
