@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from isomould.parts.congruence import classify, handedness, joined
 from isomould.parts.panels import _handedness
+from museum import SMALL, changed, design
 
 
 def singles(values):
@@ -92,3 +93,38 @@ def test_groups_are_joined_in_the_order_of_their_first_instances():
     assert both.of.tolist() == [0, 1, 2, 3, 0]
     assert both.representative.tolist() == [0, 1, 2, 3]
     assert both.deviation[:, 0] == pytest.approx([0, 0, 0, 0, 0.05])
+
+
+def test_what_a_class_holds_may_be_other_than_what_it_is_read_by():
+    """Gaps of 0.4 more each are alike at a tolerance of 0.5; sums of them are not."""
+    gaps = np.array([[[90.0, 90.0, 90.0, 90.0]], [[90.4, 90.4, 90.0, 89.2]]])
+    sums = np.cumsum(gaps, axis=2) - gaps
+    labels, tolerance = np.zeros((2, 1, 1), dtype=np.int64), np.full(4, 1.0)
+    assert len(classify(gaps, labels, tolerance).representative) == 1
+    assert len(classify(gaps, labels, tolerance * 0.85, held=sums).representative) == 1
+    assert len(classify(gaps, labels, tolerance * 0.75, held=sums).representative) == 2
+
+
+@pytest.mark.parametrize("stations", [9, 14, 20])
+@pytest.mark.parametrize("angle_deg", [0.05, 0.5])
+def test_nodes_of_a_class_have_its_azimuths(stations, angle_deg):
+    """Azimuths from arm 1, which the certificate proves (V36): neighbouring gaps within the tolerance may add up."""
+    rail = {"divide": {"stations": stations}}
+    generatrix = {"divide": {"stations": stations}, "curve": {"kind": "arc", "span": 9000, "rise": 900}}
+    made = design(
+        changed(
+            SMALL,
+            rail=rail,
+            generatrix={**generatrix, "axes": "zd"},
+            surface={"kind": "moulding"},
+            tolerances={"angle_deg": angle_deg, "min_member": 10},
+            members={"min_clear": 5},
+            stock={"bars": [], "sheets": []},
+        )
+    ).kit
+    nodes, arms = made.nodes, made.arms
+    for rows, of in zip(nodes.arm_rows, nodes.classes.of, strict=True):
+        rows = rows[rows >= 0]  # noqa: PLW2901
+        azimuth = np.mod(arms.azimuth[rows] - arms.azimuth[rows[0]] + 1.0, 2 * np.pi) - 1.0
+        assert np.degrees(abs(azimuth - nodes.arms[of].azimuth)).max() <= angle_deg + 1e-4
+        assert np.degrees(abs(arms.elevation[rows] - nodes.arms[of].elevation)).max() <= angle_deg + 1e-4

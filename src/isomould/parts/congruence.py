@@ -56,7 +56,9 @@ class Classes:
         return np.bincount(self.of, minlength=len(self.representative))
 
 
-def classify(numbers: Floats, labels: Ints, tolerance: Floats, order: Ints | None = None) -> Classes:
+def classify(
+    numbers: Floats, labels: Ints, tolerance: Floats, order: Ints | None = None, held: Floats | None = None
+) -> Classes:
     """Sort instances into classes.
 
     Parameters
@@ -70,13 +72,21 @@ def classify(numbers: Floats, labels: Ints, tolerance: Floats, order: Ints | Non
     order : (q + r,) int, optional
         Describe a class by the smallest variant of its representative, reading numbers and then labels in this
         order; without it by the representative as it stands (variant 0).
+    held : (n, s, q) float, optional
+        What a class holds within the tolerance, where that is not what it is read by: the azimuths of a node from its
+        arm 1, which are proved, and not its gaps, whose differences add up.
     """
+    held = numbers if held is None else held
     best = smallest(numbers, labels, order)
     rows = np.arange(len(numbers))
-    rounded = np.concatenate([labels[rows, best], _snapped(numbers[rows, best])], axis=1)
-    _, first, proto = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
-    merged = _merge(numbers[first], labels[first], best[first], tolerance)
-    return _describe(numbers, labels, np.zeros_like(best) if order is None else best, merged[proto.ravel()])
+    snapped = [_snapped(values[rows, best]) for values in (numbers, held)]
+    _, first, proto = np.unique(
+        np.concatenate([labels[rows, best], *snapped], axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    size = np.abs(numbers[first, 0] / tolerance).sum(axis=1)
+    merged = _merge(held[first], labels[first], best[first], tolerance, size)
+    described = np.zeros_like(best) if order is None else best
+    return _held_to_description(held, labels, described, merged[proto.ravel()], tolerance)
 
 
 def smallest(numbers: Floats, labels: Ints, order: Ints | None = None) -> Ints:
@@ -92,7 +102,11 @@ def smallest(numbers: Floats, labels: Ints, order: Ints | None = None) -> Ints:
 
 
 def handedness(
-    own: tuple[Floats, Ints], mirror: tuple[Floats, Ints], tolerance: Floats, order: Ints | None = None
+    own: tuple[Floats, Ints],
+    mirror: tuple[Floats, Ints],
+    tolerance: Floats,
+    order: Ints | None = None,
+    held: tuple[Floats, Floats] | None = None,
 ) -> tuple[Handed, ...]:
     """Tell the chirality (k,) of parts by their variants and those of their mirror images: of a pair, the smaller is L.
 
@@ -103,8 +117,8 @@ def handedness(
     ----------
     own, mirror
         Numbers (k, s, q) and labels (k, s, r).
-    tolerance, order
-        As for `classify`.
+    tolerance, order, held
+        As for `classify`; `held` of both.
     """
     numbers, labels = (np.concatenate(pair, axis=1) for pair in zip(own, mirror, strict=True))
     left = np.arange(numbers.shape[1]) < own[0].shape[1]
@@ -114,7 +128,9 @@ def handedness(
     for column in np.arange(columns.shape[2]) if order is None else order:
         value = np.where(alive, columns[..., column], np.inf)
         alive &= value <= value.min(axis=1, keepdims=True) + slack[column]
-    same = _agree(own, mirror, tolerance)
+    same = (
+        _agree(own, mirror, tolerance) if held is None else _agree((held[0], own[1]), (held[1], mirror[1]), tolerance)
+    )
     either = zip(same, (alive & left).any(axis=1), (alive & ~left).any(axis=1), strict=True)
     return tuple("none" if equal or (one and other) else ("L" if one else "R") for equal, one, other in either)
 
@@ -143,17 +159,17 @@ def _snapped(numbers: Floats) -> Ints:
     return np.round(numbers / _SNAP).astype(np.int64)
 
 
-def _merge(numbers: Floats, labels: Ints, best: Ints, tolerance: Floats) -> Ints:
+def _merge(numbers: Floats, labels: Ints, best: Ints, tolerance: Floats, size: Floats) -> Ints:
     """Class (p,) of each distinct description, by complete linkage in the order of an invariant of the variants.
 
-    Descriptions that agree differ in the invariant by q at most, so each meets only the last few classes.
+    Descriptions that agree differ in the invariant `size` (p,) by 2q at most, gaps being differences of two
+    azimuths; so each meets only the last few classes.
     """
-    size = np.abs(numbers[:, 0] / tolerance).sum(axis=1)
     low, high = np.empty_like(numbers[:, 0]), np.empty_like(numbers[:, 0])
     founder, count, window = np.empty(len(size), dtype=np.int64), 0, 0
     of = np.empty(len(size), dtype=np.int64)
     for proto in in_order(size):
-        while window < count and size[founder[window]] < size[proto] - len(tolerance) - 1:
+        while window < count and size[founder[window]] < size[proto] - 2 * len(tolerance) - 1:
             window += 1
         open_classes = slice(window, count)
         tags = labels[founder[open_classes], best[founder[open_classes]]]
@@ -182,6 +198,21 @@ def _first_fit(
     where = np.argwhere(fits)
     tightest = first_least((spread / tolerance).max(axis=2)[fits])
     return int(where[tightest, 0]), int(where[tightest, 1])
+
+
+def _held_to_description(numbers: Floats, labels: Ints, best: Ints, of: Ints, tolerance: Floats) -> Classes:
+    """Describe classes, and give what a description does not hold within the tolerance a class of its own.
+
+    A class is merged as its founder is read. Its representative may be read from another arm where two are alike but
+    for noise, and azimuths from there differ by up to twice as much.
+    """
+    while True:
+        classes = _describe(numbers, labels, best, of)
+        astray = (classes.deviation > tolerance + _SNAP).any(axis=1)
+        if not astray.any():
+            return classes
+        # The representative of a class never strays from itself: every round leaves fewer astray.
+        of = classes.of + len(classes.representative) * astray
 
 
 def _describe(numbers: Floats, labels: Ints, best: Ints, of: Ints) -> Classes:

@@ -98,7 +98,7 @@ def classify_nodes(mesh: Mesh, arms: Arms, tolerance: CongruenceSettings, up: Fl
     rows, up = _arm_table(arms), np.zeros_like(mesh.nodes) if up is None else up
     numbers, labels = _signatures(mesh, arms, _rotations(rows), up)
     spread = np.full(numbers.shape[2], np.radians(tolerance.angle_deg))
-    classes = classify(numbers, labels, spread, _reading_order(rows.shape[1]))
+    classes = classify(numbers, labels, spread, _reading_order(rows.shape[1]), _held(numbers, rows.shape[1]))
     ordered = np.take_along_axis(_rotations(rows), classes.variant[:, None, None], axis=1)[:, 0]
     first = ordered[:, 0]
     axes = mesh.axes
@@ -150,6 +150,13 @@ def _signatures(mesh: Mesh, arms: Arms, order: Ints, up: Floats, *, mirrored: bo
     return np.concatenate([*numbers, stands], axis=2), np.concatenate([family, kind], axis=2)
 
 
+def _held(numbers: Floats, valence: int) -> Floats:
+    """What nodes of a class have alike: azimuths from arm 1 in place of the gaps, each measured for itself (V36)."""
+    gaps = numbers[..., :valence]
+    azimuths = np.cumsum(gaps, axis=-1) - gaps
+    return np.concatenate([azimuths, numbers[..., valence:]], axis=-1)
+
+
 def _in_frame(mesh: Mesh, arms: Arms, first: Ints, up: Floats) -> Floats:
     """Directions (n, 3) in the frames (n, s, 3) of the nodes read from the arms (n, s)."""
     axis, along = mesh.axes[arms.node[first]], arms.direction[first]
@@ -185,4 +192,6 @@ def _handedness(mesh: Mesh, arms: Arms, rows: Ints, up: Floats, tolerance: Float
     """Chirality (k,) of nodes given by their arm rows (k, v)."""
     own = _signatures(mesh, arms, _rotations(rows), up)
     mirror = _signatures(mesh, arms, _rotations(_backwards(rows)), up, mirrored=True)
-    return handedness(own, mirror, tolerance, _reading_order(rows.shape[1]))
+    valence = rows.shape[1]
+    held = _held(own[0], valence), _held(mirror[0], valence)
+    return handedness(own, mirror, tolerance, _reading_order(valence), held)
