@@ -23,6 +23,15 @@ LONGEST = 1e9
 FARTHEST = 1e11
 """Places on maps lie within a hundred thousand kilometres of their origin, mm; there a float resolves 0.00002 mm."""
 
+SHORTEST = 0.001
+"""Outlines are multiples of it, mm: nothing that has a size is smaller."""
+
+LEAST = 1e-9
+"""Of positive numbers without a unit."""
+
+_LONGEST_TEXT = 64
+"""Characters of a length: longer ones are no numbers that people write."""
+
 UNIT_WORDS: dict[str, LengthUnit] = {
     **dict.fromkeys(("mm", "millimeter", "millimetre", "millimeters", "millimetres"), "mm"),
     **dict.fromkeys(("cm", "centimeter", "centimetre", "centimeters", "centimetres"), "cm"),
@@ -55,6 +64,8 @@ def read_length(text: str) -> Written | None:
     >>> read_length("12 ft 3½ in") == (Fraction(295, 2), "in"), read_length("5½"), read_length("a few")
     (True, (Fraction(11, 2), None), None)
     """
+    if len(text) > _LONGEST_TEXT:
+        return None
     text = _spell_out(text)
     feet = _FEET.fullmatch(text)
     match = feet or _ONE.fullmatch(text)
@@ -123,7 +134,7 @@ def _parse_text(text: str) -> Fraction:
         raise ValueError(message)
     number, unit = read_length(text) or (Fraction(0), None)
     if unit is None:
-        message = f"{text!r} is not a length; a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
+        message = f"{text[:_LONGEST_TEXT]!r} is not a length; a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
         raise ValueError(message)
     return in_mm(number, unit)
 
@@ -139,6 +150,24 @@ def _finite(length: float | Fraction, value: object, limit: float) -> float:
 def _positive(value: float) -> float:
     if value <= 0:
         message = "must be greater than zero"
+        raise ValueError(message)
+    if value < LEAST:
+        message = f"must be at least {LEAST:g}"
+        raise ValueError(message)
+    return value
+
+
+def _positive_length(value: float) -> float:
+    return _measurable(_positive(value))
+
+
+def _length_or_none(value: float) -> float:
+    return _measurable(_not_negative(value))
+
+
+def _measurable(value: float) -> float:
+    if 0 < value < SHORTEST:
+        message = f"must be at least {SHORTEST:g} mm, to which parts are made"
         raise ValueError(message)
     return value
 
@@ -167,5 +196,5 @@ Flag = Annotated[bool, Strict()]
 Length = Annotated[float, BeforeValidator(parse_length)]
 Coordinate = Annotated[float, BeforeValidator(parse_coordinate)]
 """A length in mm; accepts a number in mm or a string with a unit."""
-PositiveLength = Annotated[Length, AfterValidator(_positive)]
-NonNegativeLength = Annotated[Length, AfterValidator(_not_negative)]
+PositiveLength = Annotated[Length, AfterValidator(_positive_length)]
+NonNegativeLength = Annotated[Length, AfterValidator(_length_or_none)]

@@ -6,6 +6,8 @@ from isomould.arrays import Floats
 
 _EXACT = 2.0**52
 """Beyond it a float resolves no fractions, and rounding would only add noise."""
+_DIGITS = 15
+"""Significant digits that every program keeps, Excel among them; large areas have no room for all their decimals."""
 _SNAP = 3
 _SIGNIFICANT = 6
 
@@ -28,13 +30,18 @@ def round_to(values: Floats, decimals: int | None) -> Floats:
     array([1234.568,    0.   ,    0.   ])
     >>> round_to(np.array([1.23456789e-14]), None)
     array([1.23457e-14])
+    >>> round_to(np.array([12345.678901234567]), 12)
+    array([12345.6789012346])
     """
     if decimals is None:
         return np.array([float(f"{value:.{_SIGNIFICANT}g}") for value in values], dtype=float)
     fine = values * 10.0 ** (decimals + _SNAP)
     resolved = np.abs(fine) < _EXACT
     whole = np.rint(np.where(resolved, np.rint(fine) / 10.0**_SNAP, values * 10.0**decimals))
-    return np.where(np.abs(whole) < _EXACT, whole / 10.0**decimals, values) + 0.0
+    rounded = np.where(np.abs(whole) < _EXACT, whole / 10.0**decimals, values) + 0.0
+    long = np.abs(whole) >= 10.0**_DIGITS
+    rounded[long] = [float(f"{value:.{_DIGITS}g}") for value in values[long]]
+    return rounded
 
 
 def format_number(value: float, decimals: int | None = None) -> str:

@@ -13,6 +13,7 @@ from isomould.errors import Attempt, Gathering, Note, Refused
 from isomould.form.crossing import overhang_notes, refuse_crossing, refuse_crossing_parallels
 from isomould.form.division import Request, divide_curve
 from isomould.form.edge_offset import Divided, divide_for_edge_offset
+from isomould.form.expected_size import refuse_expected_size
 from isomould.form.frame import refuse_twist, spatial_rail
 from isomould.form.lattice import half_width
 from isomould.form.polygon import FLAT, CurvePolygon
@@ -81,6 +82,7 @@ def make_form(
         If the design asks for what the surface cannot have.
     """
     rail_request, generatrix_request = requests
+    refuse_expected_size(drawn.curve, generatrix_curve, requests)
     with Gathering() as faults:
         rail_divided = faults.run(divide_rail, drawn, rail_request, settings)
         divided = faults.run(divide_generatrix, generatrix_curve, rail_divided, generatrix_request, settings)

@@ -129,7 +129,9 @@ def placed_parts(delivery: Delivery) -> Measured:
     drawings, hollow = delivery.panels | delivery.members, _hollow(delivery)
     found = {mark: shape for mark, shape in delivery.model.shapes.items() if mark in drawings}
     off = [(_off_extents if mark in hollow else _off_outline)(shape, drawings[mark]) for mark, shape in found.items()]
-    return worst_of(off, list(found))
+    largest = max((float(np.abs(shape.vertices).max()) for shape in found.values()), default=0.0)
+    resolved = float(np.spacing(np.float32(largest)))
+    return worst_of(off, list(found), limit=max(PART_FILE, resolved))
 
 
 def _hollow(delivery: Delivery) -> set[str]:

@@ -11,8 +11,10 @@ from isomould.verify.rules import Floats, Measured, NotApplicable, Rule, faults,
 
 MAIN = "main"
 NOISE = 1e-9
+HALF_DEGREE = 0.5
+"""Keeps the azimuth of arm 1 away from the jump between 360° and 0°."""
 _PER_SHAPE = ("mark", "quantity", "max_deviation_mm", "max_deviation_deg")
-"""Columns of the nodes that a mark may have differently in every shape, and the mark itself."""
+"""Columns of the nodes that a mark may have differently in every shape, and the mark itself; totals apart."""
 
 
 def _shapes(delivery: Delivery) -> dict[str, Delivery]:
@@ -23,7 +25,7 @@ def _shapes(delivery: Delivery) -> dict[str, Delivery]:
 
 
 def congruence(delivery: Delivery) -> Measured:
-    """Spread (max − min) of gaps and elevations over all nodes of one mark in all shapes, in degrees."""
+    """Spread (max − min) of azimuths and elevations over all nodes of one mark in all shapes, in degrees."""
     found: dict[str, list[Floats]] = defaultdict(list)
     for shape in _shapes(delivery).values():
         for mark, angles in zip(shape.mesh.node_mark, _angles(shape), strict=True):
@@ -33,14 +35,14 @@ def congruence(delivery: Delivery) -> Measured:
 
 
 def _angles(delivery: Delivery) -> list[Floats]:
-    """Give gaps and elevations (2 v) of the arms of every node from arm 1 on, in degrees."""
+    """Give azimuths from arm 1 and elevations (2 v) of the arms of every node, in degrees."""
     mesh = delivery.mesh
     arms = arms_of(mesh, reference_directions(delivery))
     order = np.lexsort((np.round(arms.azimuth, 6) % (2 * np.pi), arms.owner))
     ends = np.searchsorted(arms.owner[order], np.arange(1, len(mesh.nodes)))
     azimuth, elevation = (np.split(np.degrees(values[order]), ends) for values in (arms.azimuth, arms.elevation))
     return [
-        np.concatenate([np.remainder(np.diff(a, append=a[:1]), 360.0), e])
+        np.concatenate([np.remainder(a - a[:1] + HALF_DEGREE, 360.0), e])
         for a, e in zip(azimuth, elevation, strict=True)
     ]
 
@@ -64,7 +66,8 @@ def one_kit(delivery: Delivery) -> Measured:
 def _descriptions(delivery: Delivery) -> dict[str, tuple[str, ...]]:
     """Give of every mark what its row says of the part, arms that it does not have apart, and its solid's hash."""
     table = delivery.table("nodes")
-    columns = [texts(table, name) for name in sorted(table.columns) if name not in _PER_SHAPE]
+    own = [name for name in sorted(table.columns) if name not in _PER_SHAPE and not name.startswith("total_")]
+    columns = [texts(table, name) for name in own]
     rows = [tuple(cell for cell in row if cell) for row in zip(*columns, strict=True)]
     solids = [delivery.hashes[file][0] for file in texts(table, "solid_file")]
     return {mark: (*row, solid) for mark, row, solid in zip(texts(table, "mark"), rows, solids, strict=True)}
