@@ -10,6 +10,11 @@ import isomould
 from museum import DELIVERED, write_project
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let the long run build as many plausible projects as are asked for."""
+    parser.addoption("--plausible", type=int, default=2000, help="random projects that the long run builds")
+
+
 @pytest.fixture(scope="session")
 def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A small project, delivered with sheets, bars, R12 twins and a datum; copy it before changing it."""

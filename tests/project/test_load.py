@@ -37,6 +37,19 @@ BROKEN = {
     ),
     "a flag for a length": ({"panels": {"gap": True}}, ["panels.gap", "True is not a length"]),
     "a length beyond floats": ({"panels": {"gap": "1e400 m"}}, ["panels.gap", "1e400 m", "at most 1e+09 mm"]),
+    "an exponent without end": (
+        {"panels": {"gap": "1e99999999 m"}},
+        ["panels.gap", "1e99999999 m", "a number and one of mm"],
+    ),
+    "a text without end": ({"panels": {"gap": "9" * 100_000 + " m"}}, ["panels.gap", "a number and one of mm"]),
+    "a length of nothing": ({"nodes": {"bore": 5e-324}}, ["nodes.bore", "5e-324. Limit: at least 0.001 mm"]),
+    "a number of nothing": ({"members": {"density": 1e-300}}, ["members.density", "1e-300. Limit: at least 1e-09"]),
+    "less than no sheets": (
+        {"stock": {"sheets": [{"name": "S", "width": 4000, "height": 2500, "quantity": -1}]}},
+        ["stock.sheets.0.quantity: -1 of them. Limit: at least 1"],
+    ),
+    "a layer of DXF itself": ({"deliver": {"layers": {"CUT": "Defpoints"}}}, ["deliver.layers", "DEFPOINTS"]),
+    "two processes on a layer": ({"deliver": {"layers": {"CUT": "engrave"}}}, ["deliver.layers", "ENGRAVE"]),
     "a whole number beyond floats": ({"panels": {"gap": 10**400}}, ["panels.gap", "at most 1e+09 mm"]),
     "a gap that is no gap": ({"panels": {"spacer": 1e15}}, ["panels.spacer", "at most 1e+09 mm"]),
     "a number whose square overflows": (
@@ -103,8 +116,29 @@ def test_missing_tables_are_named():
 def test_all_findings_are_told_at_once():
     with pytest.raises(Refused) as refusal:
         validate(changed(SMALL, panels={"gap": -1, "spacerr": 2}), "project.toml")
-    assert "panels.gap" in str(refusal.value)
-    assert "panels.spacerr" in str(refusal.value)
+    found = {one.field: one.limit for one in refusal.value.each}
+    assert found.keys() == {"project.toml: panels.gap", "project.toml: panels.spacerr"}
+    assert found["project.toml: panels.gap"] == "greater than zero"
+
+
+def test_all_conflicts_are_told_at_once():
+    """Tables that do not go together, in one table of the file and between several."""
+    stock = {"gap": 1, "kerf": 3, "trim": 2000}
+    with pytest.raises(Refused) as refusal:
+        validate(changed(SMALL, stock=stock), "project.toml")
+    assert [one.found for one in refusal.value.each] == [
+        "gap 1 mm is too narrow",
+        "trim 2000 mm leaves nothing of sheet 'Sheet'",
+    ]
+    with pytest.raises(Refused) as refusal:
+        validate(changed(SMALL, panels={"gap": 0.5}, generatrix={"divide": {"phase": "node"}}), "project.toml")
+    assert len(refusal.value.each) == 2
+
+
+def test_several_changes_that_cannot_be_set_are_told_at_once(project_file):
+    with pytest.raises(Refused) as refusal:
+        load_project(project_file(SMALL), ["gap", "schema.x=1", "panels.gap=14"])
+    assert [one.field for one in refusal.value.each] == ["--set gap", "--set schema.x"]
 
 
 @pytest.mark.parametrize(
