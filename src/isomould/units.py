@@ -134,7 +134,8 @@ def _parse_text(text: str) -> Fraction:
         raise ValueError(message)
     number, unit = read_length(text) or (Fraction(0), None)
     if unit is None:
-        message = f"{text[:_LONGEST_TEXT]!r} is not a length; a number and one of {', '.join(MM_PER_UNIT)}, such as '24 m'"
+        shown, units = text[:_LONGEST_TEXT], ", ".join(MM_PER_UNIT)
+        message = f"{shown!r} is not a length; a number and one of {units}, such as '24 m'"
         raise ValueError(message)
     return in_mm(number, unit)
 
