@@ -1,6 +1,20 @@
 """isomould: from two curves to everything a shop needs to build a free-form gridshell."""
 
-from isomould.api import Checked, NestFiles, build, check, compare, draw, explore, frames, nest, new, schedule, verify
+from isomould.api import (
+    Checked,
+    NestFiles,
+    build,
+    check,
+    compare,
+    draw,
+    explore,
+    frames,
+    inspect,
+    nest,
+    new,
+    schedule,
+    verify,
+)
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
 from isomould.running import Built, Run
 
@@ -20,6 +34,7 @@ __all__ = [
     "draw",
     "explore",
     "frames",
+    "inspect",
     "nest",
     "new",
     "schedule",

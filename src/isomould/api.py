@@ -23,12 +23,14 @@ if TYPE_CHECKING:
     from isomould.delivery.nested import Targets
     from isomould.delivery.pictures import View
     from isomould.documents.picture import Picture
+    from isomould.intake.inspection import Inspection
     from isomould.intake.member_rows import MemberList
     from isomould.nesting.layout import BarLayout, Layout
     from isomould.nesting.search import Effort, Progress, Search
     from isomould.nesting.stop import Stop
     from isomould.project.load import LoadedProject
     from isomould.study import Study
+    from isomould.units import LengthUnit
 
     AnyLayout = TypeVar("AnyLayout", Layout, BarLayout)
 
@@ -268,6 +270,41 @@ def _marked(layout: AnyLayout, stop: Stop) -> AnyLayout:
 
 def _ignore(_: Note) -> None:
     """Tell nobody."""
+
+
+def inspect(
+    file: str | Path,
+    layer: str | None = None,
+    units: LengthUnit | None = None,
+    join: float | None = None,
+    out: str | Path | None = None,
+) -> Inspection:
+    """Say what is read of a drawing (.dxf), a Rhino model (.3dm), a part list or a folder of part drawings.
+
+    Parameters
+    ----------
+    file
+        The file; nothing of it is changed.
+    layer
+        The layer whose one curve is read as a project reads it; None lists the curves of all layers. Of a folder of
+        part drawings the layer of outlines, by default CUT.
+    units
+        Of coordinates and numbers; None takes what the file says.
+    join
+        Ends of curves this near are joined, mm; None for 0.01 mm, or what the file's printing loses.
+    out
+        A picture of the curves to write, `.svg`; it is written whole or not at all.
+
+    Raises
+    ------
+    Refused
+        Naming file, field or entity, what was found, the limit and a way out.
+    OutputFault
+        If the file cannot be read, or the picture not be written.
+    """
+    from isomould.intake.inspect_file import inspect_file
+
+    return inspect_file(Path(file), layer, units, join, None if out is None else Path(out))
 
 
 def compare(project: str | Path, changes: Sequence[str] = (), out: str | Path | None = None) -> tuple[Compared, ...]:

@@ -50,14 +50,14 @@ def run(verbs, folder):
 @pytest.fixture
 def inputs(tmp_path):
     write_project(tmp_path / "small.toml", changed(SMALL, deliver=BARE))
-    (tmp_path / "members.json").write_text(json.dumps({"members": MEMBERS}), encoding="utf-8")
+    (tmp_path / "members.json").write_text(json.dumps({"name": "bars", "members": MEMBERS}), encoding="utf-8")
     (tmp_path / "parts.csv").write_text("mark,width,height,quantity\nA,900,700,9\nB,640,410,7\nC,1210,300,5\n", "utf-8")
     return tmp_path
 
 
 VERBS = {
     "new": (["new", "--list"], r"(barrel-vault|[\w-]+\n)[\s\S]*"),
-    "check": (["check", "small.toml"], r" Parallels [\s\S]* arc 2 [^\n]*\n"),
+    "check": (["check", "small.toml"], r"[\s\S]*Parallels[\s\S]*"),
     "build": (
         ["build", "small.toml", "--out", "out", "--effort", "quick", "--jobs", "1", "--quiet"],
         r"built out \(.*\)\n",
@@ -66,6 +66,7 @@ VERBS = {
     "schedule": (["schedule", "small.toml", "--out", "tables", "--quiet", "--jobs", "1"], r"[^\n]*tables[^\n]*\n"),
     "compare": (["compare", "small.toml"], r"[\s\S]*isogonal[\s\S]*"),
     "nest": (["nest", "members.json", "--out", "bars.json", "--bar", "FL80*8=6 m", "--quiet"], r"\d+ bars, [^\n]*\n"),
+    "inspect": (["inspect", "parts.csv"], r"parts.csv: 3 kinds, 21 pieces\n(  [^\n]*\n){3}"),
     "draw": (["draw", "small.toml", "--out", "plan.svg", "--view", "plan"], r"wrote plan.svg\n"),
 }
 

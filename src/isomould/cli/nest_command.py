@@ -11,7 +11,7 @@ import click
 
 import isomould
 from isomould.cli.console import INTERRUPTED, catch_signals, say, warn
-from isomould.cli.options import EFFORT
+from isomould.cli.options import EFFORT, Quantity
 from isomould.errors import Note, Refused
 from isomould.intake.columns_found import column_of
 from isomould.intake.member_list import lists_members
@@ -26,22 +26,9 @@ from isomould.units import LengthUnit
 _UNITS = click.Choice(get_args(LengthUnit))
 
 
-class _Quantity(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] - generic in newer versions only
-    """A value of the `[stock]` table as an option says it."""
-
-    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
-        self.name, self.read = name, read
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        try:
-            return self.read(value)
-        except ValueError as fault:
-            self.fail(str(fault), param, ctx)
-
-
-_LENGTH, _SHEET = _Quantity("length", length_of), _Quantity("width x height", sheet_of)
-_BAR = _Quantity("section=length", bar_of)
-_COLUMN = _Quantity("name=heading", column_of)
+_LENGTH, _SHEET = Quantity("length", length_of), Quantity("width x height", sheet_of)
+_BAR = Quantity("section=length", bar_of)
+_COLUMN = Quantity("name=heading", column_of)
 
 
 def _stocked(command: Callable[..., None]) -> Callable[..., None]:

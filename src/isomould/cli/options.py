@@ -3,12 +3,27 @@
 import functools
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 
 EFFORT = click.Choice(["quick", "normal", "best"])
 PROJECT = click.argument("project", type=click.Path(path_type=Path))
 CHANGES = click.option("--set", "changes", multiple=True, metavar="KEY=VALUE", help='Such as rail.curve.rise="8 m".')
+
+
+class Quantity(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] - generic in newer versions only
+    """A value that a reader of ours makes of an option's text, such as a length with its unit."""
+
+    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
+        self.name, self.read = name, read
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Read the text, or say what is wrong with it."""
+        try:
+            return self.read(value)
+        except ValueError as fault:
+            self.fail(str(fault), param, ctx)
 
 
 def building(command: Callable[..., None]) -> Callable[..., None]:

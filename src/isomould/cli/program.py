@@ -22,6 +22,7 @@ _COMMANDS = {
     "schedule": ("build_command", "Write the workbook and the tables of a project."),
     "compare": ("compare_command", "Compare mesh families on the project's surface."),
     "nest": ("nest_command", "Nest parts of any origin on sheets, members on bars."),
+    "inspect": ("inspect_command", "Say what is read of a drawing, a model or a part list."),
     "draw": ("draw_command", "Draw the design; no other files are written."),
 }
 """The module of each command and what it does, in the order of the help page, which imports none of them."""

@@ -282,6 +282,9 @@ _TRACERS: dict[str, Callable[[Any, Floats, str], list[Shape]]] = {
 }
 """Class of a Rhino curve to the function that traces it, in the direction it is drawn."""
 
+RHINO_CURVES = frozenset(_TRACERS)
+"""The classes that can be read."""
+
 
 def _refuse(what: str, field: str, found: str, limit: str, way_out: str) -> Any:
     raise Refused(code=f"E-RHINO-{what}", field=field, found=found, limit=limit, way_out=way_out)

@@ -12,14 +12,18 @@ from isomould.arrays import Floats
 from isomould.curves.chains import Chain
 from isomould.curves.drawing_units import FoundUnit
 from isomould.curves.dxf import open_dxf_source
+from isomould.curves.entities import TRACERS
 from isomould.curves.joining import join_tolerance, joined
 from isomould.curves.layers import LayerContent, LayerDrawing
 from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.pieces import Piece
-from isomould.curves.rhino import open_rhino_source
+from isomould.curves.rhino import RHINO_CURVES, open_rhino_source
 from isomould.curves.spatial import laid_flat
 from isomould.errors import Note, Refused
 from isomould.units import LengthUnit
+
+CURVE_KINDS = frozenset(TRACERS) | RHINO_CURVES
+"""Types of entities that are read as curves, as `LayerContent.kinds` names them."""
 
 
 class Source(Protocol):
