@@ -62,7 +62,7 @@ VERBS = {
         ["build", "small.toml", "--out", "out", "--effort", "quick", "--jobs", "1", "--quiet"],
         r"built out \(.*\)\n",
     ),
-    "verify": (["verify", "out"], r"out: \d+ checks[^\n]*\n"),
+    "verify": (["verify", "out"], r"out: \d+ checks passed, 0 failed\n[\s\S]*"),
     "schedule": (["schedule", "small.toml", "--out", "tables", "--quiet", "--jobs", "1"], r"[^\n]*tables[^\n]*\n"),
     "compare": (["compare", "small.toml"], r"[\s\S]*isogonal[\s\S]*"),
     "nest": (["nest", "members.json", "--out", "bars.json", "--bar", "FL80*8=6 m", "--quiet"], r"\d+ bars, [^\n]*\n"),
