@@ -287,7 +287,7 @@ def inspect(
         The file; nothing of it is changed.
     layer
         The layer whose one curve is read as a project reads it; None lists the curves of all layers. Of a folder of
-        part drawings the layer of outlines, by default CUT.
+        part drawings the layer of outlines, else CUT or the only one.
     units
         Of coordinates and numbers; None takes what the file says.
     join

@@ -27,7 +27,7 @@ def inspect_file(
     """
     _refuse_asked(path, join, out)
     if not is_drawing(path):
-        return inspect_list(path, Asked(units=units, layer=layer or "CUT"))
+        return inspect_list(path, Asked(units=units, layer=layer, join=join))
     found = inspect_drawing(path, layer, units, join)
     if out is not None:
         replace_file(out, svg_text(drawing_picture(found)).encode())
