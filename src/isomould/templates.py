@@ -1,5 +1,6 @@
 """The templates that ship with the program: complete, commented projects."""
 
+import difflib
 from itertools import takewhile
 from pathlib import Path
 
@@ -24,10 +25,27 @@ def template_names() -> tuple[str, ...]:
 
 
 def describe_template(name: str) -> str:
-    """Give what the first comment of a template says up to its first colon."""
+    """Give the first sentence of a template's first comment.
+
+    >>> describe_template("courtyard-dome")
+    'A glass dome over a courtyard of 18 m, with level rings and an open eye at its top.'
+    """
     text = (template_folder() / f"{name}.toml").read_text(encoding="utf-8")
-    comment = " ".join(line.lstrip("# ") for line in takewhile(lambda line: line.startswith("#"), text.splitlines()))
-    return comment.partition(":")[0]
+    head = takewhile(lambda line: line.startswith("# "), text.splitlines())
+    return " ".join(line.removeprefix("# ") for line in head)
+
+
+def near_templates(word: str) -> tuple[str, ...]:
+    """Give the templates whose names have a word in them, or else a name like it; all, if none has.
+
+    >>> near_templates("canopy")
+    ('canopy-from-dxf', 'stadium-canopy')
+    >>> near_templates("courtyard-doom")
+    ('courtyard-dome',)
+    """
+    names = template_names()
+    found = [name for name in names if word.lower() in name]
+    return tuple(found or difflib.get_close_matches(word.lower(), names, 3)) or names
 
 
 def copy_template(template: str, target: Path) -> tuple[Path, ...]:
@@ -41,8 +59,10 @@ def copy_template(template: str, target: Path) -> tuple[Path, ...]:
         If a file cannot be written.
     """
     if template not in template_names():
-        listed = ", ".join(template_names())
-        raise Refused("E-TEMPLATE", "--template", repr(template), f"one of {listed}", "See isomould new --list.")
+        near = near_templates(template)
+        listed = "".join(f"\n  {name}: {describe_template(name)}" for name in near)
+        way_out = f"Take one of these, or see isomould new --list:{listed}"
+        raise Refused("E-TEMPLATE", "--template", repr(template), f"one of {', '.join(near)}", way_out)
     drawings = sorted(template_folder().glob(f"{template}.dxf"))
     pairs = [
         (template_folder() / f"{template}.toml", target),

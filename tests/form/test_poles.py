@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 import isomould
 from isomould.errors import Refused
@@ -302,3 +303,14 @@ class TestTemplates:
         assert len(set(np.linalg.norm(generatrices[:, 1] - generatrices[:, 0], axis=1).round(6))) == 8
         curve = result.rail.curve.point(np.array([0, 0, 0]), np.array([0.0, 0.5, 1.0]))
         assert (curve[1, 1] - curve[0, 1]) / abs(curve[2, 0] - curve[0, 0]) == pytest.approx(0.375)
+
+    def test_corrugated_vault_is_bent_most_at_its_top(self):
+        """Figs. 20 and 21: curvature is largest at the top, panels are longest at the supports (recomputed)."""
+        form = sketched(template("corrugated-vault")).form
+        points = np.array([[-12.0, 0.0], [-6.0, 12.0], [6.0, 12.0], [12.0, 0.0]])
+        arch = BSpline(np.array([0.0] * 4 + [1.0] * 4), points, 3)
+        first, second = arch([0.0, 0.5], 1), arch([0.0, 0.5], 2)
+        bend = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / np.linalg.norm(first, axis=1) ** 3
+        assert bend == pytest.approx([0.0398, 0.0988], abs=5e-5)
+        assert form.rail.lengths[[1, 9]] == pytest.approx([2462, 1186], abs=0.6)
+        assert np.argmin(form.rail.lengths) in (9, 10)
