@@ -72,12 +72,12 @@ def test_torsion_costs_what_any_node_does_where_nobody_says_more(compared):
 
 def test_only_meshes_with_torsion_pay_for_it(compared):
     twisted = repetition(DATA, compared)["twisted_nodes_count"]
-    assert twisted["triangulated"] > 0 == twisted["moulding"] == twisted["isogonal"] == twisted["edge-offset"]
+    assert twisted["triangulated"] > 0 == twisted["pq-conical"] == twisted["isogonal"] == twisted["edge-offset"]
 
 
 def test_repetition_pays(compared):
     cost = repetition(DATA, compared)["node_set_up_cost"]
-    assert cost["isogonal"] < cost["moulding"] < cost["triangulated"]
+    assert cost["isogonal"] < cost["pq-conical"] < cost["triangulated"]
 
 
 def test_a_family_without_a_mesh_is_a_row_of_blanks(compared):

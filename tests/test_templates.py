@@ -56,7 +56,7 @@ def test_names_with_a_word_in_them_are_offered(tmp_path):
 
 BRIEFS = {
     "covered-street": ((24, 60), (2500, 2500), 13),
-    "stadium-canopy": ((72, 35.8), (3200, 2600), 15),
+    "stadium-canopy": ((72, 35.8), (3200, 2600), 16),
     "courtyard-dome": ((18, 16.4), (2000, 2000), 5),
 }
 """Plan in m, largest panel in mm, node classes inside (at most 24 asked for on the street)."""

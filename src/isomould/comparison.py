@@ -12,7 +12,7 @@ from isomould.form.assemble import Form, RailInPlane, RailInSpace, make_form
 from isomould.form.division import Request
 from isomould.form.mesh import Mesh, make_mesh
 from isomould.form.settings import GeneratrixDivide, Kind, RailDivide, SurfaceSettings
-from isomould.measure.families import translation, triangulated
+from isomould.measure.families import scale_trans, triangulated
 from isomould.measure.report import Measured, measure_mesh
 from isomould.measure.smooth import Smooth
 from isomould.measure.take_off import TakeOff, take_off
@@ -33,15 +33,17 @@ class Compared:
 def compare_families(design: Design) -> tuple[Compared, ...]:
     """Build the design's surface as every mesh family and measure them all alike.
 
-    Parallels and generatrices are as many as the design has; where the angles decide it, as near as they admit.
+    Parallels and generatrices are as many as the design has; where the angles decide it, as near as they admit. They
+    are the curvature lines of the surface (paper §3.1): divided into equal lengths, and made exact by mitres, they
+    are its planar and conical mesh.
     """
     rail = _planar(design)
     smooth = Smooth(rail.curve, design.generatrix, rail.plane)
     edges = len(design.form.rail.lengths), len(design.form.generatrix.lengths)
     makers: dict[str, Callable[[], Mesh]] = {
         "triangulated": lambda: triangulated(smooth, edges),
-        "translation": lambda: translation(smooth, edges),
-        "moulding": lambda: _moulding(design, "moulding"),
+        "scale-trans": lambda: scale_trans(smooth, edges),
+        "pq-conical": lambda: _moulding(design, "moulding"),
         "isogonal": lambda: _moulding(design, "isogonal"),
         "edge-offset": lambda: _moulding(design, "edge-offset"),
     }

@@ -28,6 +28,7 @@ from isomould.form.settings import FormLimits, Treatment
 from isomould.form.slivers import weigh_panels
 from isomould.form.trim import make_cut, trim_mesh
 from isomould.measure.offsets import DoubleLayer, make_double_layer
+from isomould.measure.trim_cost import trim_cost_notes
 from isomould.parts.kit import Kit, KitSettings, TriedKit, try_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
@@ -100,7 +101,8 @@ class TriedDesign:
             The first that ended a stage.
         """
         drawn, kit, layers = self.sketch.value, self.parts.value.kit, self.layers.value
-        notes = (*drawn.notes, *kit.notes, *(layers.notes if layers else ()))
+        cost = _trim_cost(self.project, drawn.form, kit)
+        notes = (*drawn.notes, *kit.notes, *cost, *(layers.notes if layers else ()))
         return Design(self.project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
 
 
@@ -192,6 +194,11 @@ def _double_layer(form: Form, project: Project) -> DoubleLayer | None:
             "Leave double_layer out, or surface.trim.",
         )
     return make_double_layer(form, asked.offset, asked.distance)
+
+
+def _trim_cost(project: Project, form: Form, kit: Kit) -> tuple[Note, ...]:
+    """Say what the planes of a trimmed surface cost."""
+    return trim_cost_notes(form, kit, kit_settings(project).tolerance) if project.surface.trim else ()
 
 
 def kit_settings(project: Project) -> KitSettings:

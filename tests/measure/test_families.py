@@ -9,7 +9,7 @@ import pytest
 import isomould
 from isomould.comparison import compare_families, families_table
 from isomould.errors import Refused
-from isomould.measure.families import translation, triangulated
+from isomould.measure.families import scale_trans, triangulated
 from isomould.measure.smooth import Smooth, surface_distances
 from isomould.verify.delivery import Delivery
 from isomould.verify.folder import RULES
@@ -28,8 +28,8 @@ def vault():
 
 
 def test_all_families_have_the_counts_of_the_design(vault):
-    assert list(vault) == ["triangulated", "translation", "moulding", "isogonal", "edge-offset"]
-    for family in ("triangulated", "translation", "moulding", "isogonal"):
+    assert list(vault) == ["triangulated", "scale-trans", "pq-conical", "isogonal", "edge-offset"]
+    for family in ("triangulated", "scale-trans", "pq-conical", "isogonal"):
         assert (vault[family].parallels, vault[family].generatrices, vault[family].nodes) == (33, 20, 660)
 
 
@@ -41,23 +41,23 @@ def test_triangles(vault):
     assert mesh.torsion > 0.01
 
 
-def test_translation_meshes_are_planar_and_not_conical(vault):
-    mesh = vault["translation"]
+def test_scale_trans_meshes_are_planar_and_not_conical(vault):
+    mesh = vault["scale-trans"]
     assert mesh.planarity < 1e-9
     assert mesh.conical > 1e-3
     assert mesh.torsion > 1e-4
 
 
-def test_moulding_meshes_are_planar_conical_and_free_of_torsion(vault):
-    for family in ("moulding", "isogonal", "edge-offset"):
+def test_conical_meshes_are_planar_conical_and_free_of_torsion(vault):
+    for family in ("pq-conical", "isogonal", "edge-offset"):
         mesh = vault[family]
         assert max(mesh.planarity, mesh.conical, mesh.torsion) < 1e-9
 
 
 def test_isogonal_has_the_fewest_nodes_and_the_most_various_lengths(vault):
     classes = {family: mesh.interior for family, mesh in vault.items()}
-    assert classes["isogonal"] == 8 < classes["moulding"] < classes["triangulated"]
-    assert vault["isogonal"].spread > vault["moulding"].spread
+    assert classes["isogonal"] == 8 < classes["pq-conical"] < classes["triangulated"]
+    assert vault["isogonal"].spread > vault["pq-conical"].spread
 
 
 def test_only_the_edge_offset_mesh_has_beams_that_meet(vault):
@@ -77,7 +77,7 @@ def test_the_design_is_measured_as_it_is():
 def test_the_axes_of_comparison_meshes_point_outside():
     vault = design(VAULT)
     smooth = Smooth(vault.rail.curve, vault.generatrix, vault.rail.plane)
-    for make in (triangulated, translation):
+    for make in (triangulated, scale_trans):
         axes = make(smooth, (19, 32)).axes.reshape(33, 20, 3)
         assert axes[:, 9:11, 2].min() > 0
 
@@ -92,7 +92,7 @@ def test_families_that_do_not_exist_say_why():
     straight = {**VAULT["generatrix"], "curve": {"kind": "polyline", "points": [[0, 0], [20_000, 0]]}}
     data = {**VAULT, "surface": {"kind": "moulding"}, "generatrix": straight | {"divide": {"stations": 6}}}
     compared = {each.family: each for each in compare_families(design(data | {"generatrix": _plain(data)}))}
-    assert compared["moulding"].measured is not None
+    assert compared["pq-conical"].measured is not None
     for family in ("isogonal", "edge-offset"):
         assert compared[family].measured is None
         assert "E-CURVE-STRAIGHT" in compared[family].reason

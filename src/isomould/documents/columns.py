@@ -64,7 +64,7 @@ TABLES: dict[str, tuple[str, ...]] = {
         "families": """family parallels generatrices nodes_count node_classes interior_node_classes members_count
             member_classes panels_count panel_classes shortest_mm longest_mm length_spread_percent aspect
             planarity_mm conical_deg circular_deg cone_spread_deg mismatch_mm torsion_deg deviation_mm
-            horizontal_parallels reason""",
+            horizontal_parallels freegrid_planarity freegrid_joint_classes freegrid_lengths reason""",
         "repetition": """family nodes_count node_classes twisted_nodes_count members_count member_classes panels_count
             panel_classes member_length_mm panel_area_m2 charged_area_m2 contour_length_mm node_set_up_cost
             node_run_cost member_set_up_cost member_run_cost panel_set_up_cost panel_run_cost member_material_cost
@@ -88,13 +88,14 @@ _DECIMALS_WITHOUT_UNIT: dict[str, int | None] = {
     **dict.fromkeys(("total_pieces",), 0),
     **dict.fromkeys((name for name in TABLES["repetition"] if name.endswith("_cost")), 12),
     **dict.fromkeys(("worst", "limit"), None),
-    **dict.fromkeys(("aspect",), 3),
+    **dict.fromkeys(("aspect", "freegrid_lengths"), 3),
+    **dict.fromkeys(("freegrid_planarity",), 6),
 }
 _TEXTS_WITH_UNIT = frozenset(("packers_mm",))  # a list of four, in the order of the sides
 _INTEGERS = frozenset(
     """quantity quantity_before valence slots facets fins holes threads arm base_holes i j first_corner parts cuts
     cut pieces count parallels generatrices nodes_count twisted_nodes_count node_classes interior_node_classes
-    members_count member_classes panels_count panel_classes horizontal_parallels""".split()  # noqa: SIM905
+    members_count member_classes panels_count panel_classes horizontal_parallels freegrid_joint_classes""".split()  # noqa: SIM905
 )
 _TAKEN_OFF = Column("quantity", "Quantity", "number", 12, total=False)
 """In the cost a quantity is whatever is paid for, not a number of pieces."""

@@ -17,8 +17,9 @@ from isomould.form.kept_ends import keep_end, refuse_kept_ends
 from isomould.form.lattice import KoebeLattice, half_width
 from isomould.form.long_edges import divide_long_edges
 from isomould.form.phase import choose_lattice
+from isomould.form.pole_advice import Strip, refuse_pole
 from isomould.form.poles import Strips, chain, strips_between_poles
-from isomould.form.polygon import FLAT, CurvePolygon, joints
+from isomould.form.polygon import FLAT, CurvePolygon
 from isomould.form.profile import Caps
 from isomould.form.settings import GeneratrixDivide, SlopePhase, SurfaceSettings
 from isomould.form.tangents import split_at_inflections, tangent_edges
@@ -62,7 +63,8 @@ def divide_for_edge_offset(
     refuse_straight(arcs(turns), request.field)
     strips = strips_between_poles(curve, turns, float(np.radians(settings.min_pole_angle_deg)))
     if not strips.spans or (settings.pole == "refuse" and not strips.whole):
-        _refuse_pole(curve, turns, strips.spans, turning, settings, request)
+        first = [Strip(spans, _lattice(curve, spans, turning, request)) for spans in strips.spans[:1]]
+        refuse_pole(curve, turns, first[0] if first else None, rail, settings, limits.min_member)
     drawn = _drawn_ends(strips, request)
     divided = [
         _divide_strip(curve, strip, turning, request, ends) for strip, ends in zip(strips.spans, drawn, strict=True)
@@ -131,7 +133,7 @@ def _divide_strip(
     curve: PlanarCurve, strip: Spans, turning: float, request: Request, kept: tuple[bool, bool]
 ) -> tuple[CurvePolygon, Floats]:
     """Divide a stretch of the generatrix without poles; `kept` says which of its ends stay as drawn."""
-    lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
+    lattice = _lattice(curve, strip, turning, request)
     edges = tangent_edges(curve, strip, shared_lattices(strip, lattice), request.field)
     for last, stays in enumerate(kept):
         if stays and len(edges.index):
@@ -163,6 +165,10 @@ def _pole_notes(strips: Strips, settings: SurfaceSettings) -> tuple[Note, ...]:
     return (Note("W-GENERATRIX-POLE", "surface.pole", text),)
 
 
+def _lattice(curve: PlanarCurve, strip: Spans, turning: float, request: Request) -> KoebeLattice:
+    return choose_lattice(curve, strip, turning, _phase(request), request.field)
+
+
 def _phase(request: Request) -> str | SlopePhase:
     divide = request.divide
     return (divide.phase if isinstance(divide, GeneratrixDivide) else None) or "centre"
@@ -177,39 +183,3 @@ def _upright(curve: PlanarCurve, field: str) -> Spans:
     middle = turns.theta0[0] if curve.closed else (turns.theta0.min() + turns.theta1.max()) / 2
     shift = 2 * np.pi * np.rint((np.pi / 2 - middle) / (2 * np.pi))
     return replace(turns, theta0=turns.theta0 + shift, theta1=turns.theta1 + shift)
-
-
-def _refuse_pole(
-    curve: PlanarCurve, turns: Spans, strips: tuple[Spans, ...], turning: float, settings: SurfaceSettings,
-    request: Request,
-) -> None:  # fmt: skip
-    """Refuse normals too near the rail's axis, with the rows that it would take (failure mode C1)."""
-    limit = 90 - settings.min_pole_angle_deg
-    raise Refused(
-        "E-GENERATRIX-POLE",
-        "generatrix.curve",
-        f"its normal {_reach(turns)}, a pole that an edge offset mesh never reaches"
-        + "".join(_forecast(curve, strip, turning, limit, request) for strip in strips[:1]),
-        f"at least surface.min_pole_angle_deg = {settings.min_pole_angle_deg:g}°",
-        f"Cut the generatrix where its normal's latitude is {limit:g}°, or leave a gap there: "
-        "surface.pole = 'open'; 'cap' closes it with flat panels.",
-    )
-
-
-def _reach(turns: Spans) -> str:
-    every = np.concatenate([turns.theta0, turns.theta1])
-    if np.floor(every.min() / np.pi) != np.ceil(every.max() / np.pi) - 1:
-        return "passes the direction of the rail's axis"
-    nearest = np.degrees(np.abs(every - np.pi * np.rint(every / np.pi)).min())
-    return f"comes within {nearest:.4f}° of the rail's axis"
-
-
-def _forecast(curve: PlanarCurve, strip: Spans, turning: float, limit_deg: float, request: Request) -> str:
-    """Say how many rows lead from the phase to the limit, and how high the lowest of them is."""
-    lattice = choose_lattice(curve, strip, turning, _phase(request), request.field)
-    rows = int(np.ceil((np.arctanh(np.tan(np.radians(limit_deg) / 2)) - lattice.start) / lattice.step))
-    heights = np.linalg.norm(
-        np.diff(joints(tangent_edges(curve, strip, shared_lattices(strip, lattice), request.field)), axis=0), axis=1
-    )
-    lowest = f", the lowest of them {heights.min():.1f} mm high" if len(heights) else ""
-    return f" ({rows} rows lead from the phase to the limit{lowest})"

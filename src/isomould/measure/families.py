@@ -27,7 +27,7 @@ def triangulated(smooth: Smooth, edges: tuple[int, int]) -> Mesh:
     return _split(_with_normals(smooth.point(*places), smooth))
 
 
-def translation(smooth: Smooth, edges: tuple[int, int]) -> Mesh:
+def scale_trans(smooth: Smooth, edges: tuple[int, int]) -> Mesh:
     """Give the scale-trans mesh nearest to the surface: every parallel is the rail's polygon, scaled and moved.
 
     Scale and motion are those of least squares to the true parallel. Panels are plane trapezoids.

@@ -7,6 +7,7 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.form.mesh import Mesh, NodeKind
 from isomould.measure.faces import aspect_ratios, circularity, face_classes, planarity
+from isomould.measure.freegrid import buildability
 from isomould.measure.joints import cone_angles, conical_residual, edge_classes, edge_lengths, horizontal_levels
 from isomould.measure.smooth import Smooth, surface_distances
 from isomould.parts.arms import find_arms
@@ -23,6 +24,7 @@ class Measured:
     `interior` counts the classes of inner nodes that are not flat. `cone` is the largest spread of the angles
     between a node's members and its axis, `mismatch` what it costs in mm of beam depth, `deviation` the largest
     distance of nodes and face centres from the smooth surface, `levels` the number of horizontal parallels.
+    The last three are those of the freeGrid benchmark.
     """
 
     parallels: int
@@ -46,6 +48,9 @@ class Measured:
     torsion: float
     deviation: float
     levels: int
+    freegrid_planarity: float
+    freegrid_joint_classes: int
+    freegrid_lengths: float
 
 
 def measure_mesh(mesh: Mesh, smooth: Smooth, depth: float, tolerance: CongruenceSettings) -> Measured:
@@ -53,6 +58,7 @@ def measure_mesh(mesh: Mesh, smooth: Smooth, depth: float, tolerance: Congruence
     arms = find_arms(mesh)
     nodes = classify_nodes(mesh, arms, tolerance)
     lengths = edge_lengths(mesh)
+    public = buildability(mesh, arms)
     return Measured(
         parallels=mesh.shape[0],
         generatrices=mesh.shape[1],
@@ -75,6 +81,9 @@ def measure_mesh(mesh: Mesh, smooth: Smooth, depth: float, tolerance: Congruence
         torsion=float(node_torsion(mesh, arms).max()),
         deviation=float(surface_distances(smooth, _samples(mesh)).max()),
         levels=int(np.isfinite(horizontal_levels(mesh)).sum()),
+        freegrid_planarity=public.planarity,
+        freegrid_joint_classes=public.clusters,
+        freegrid_lengths=public.lengths,
     )
 
 

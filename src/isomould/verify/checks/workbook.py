@@ -14,6 +14,7 @@ CALCULATED = {"Cover", "Summary", "Checks", "Cost", "Rates", "Repetition"}
 _NUMERIC = re.compile(
     r".*_(mm|deg|kg|m2|cm3|percent)|(axis|ref)_[xyz]|i|j|quantity(_\w+)?|valence|slots|facets|fins|holes|threads"
     r"|arm|base_holes|parts|cuts|(total_)?pieces|first_corner|value|worst|limit|count|rate|amount|price|parallels|generatrices|aspect"
+    r"|freegrid_planarity|freegrid_lengths"
     r"|horizontal_parallels|\w+_(count|classes|cost)"
 )
 _LISTS = {"packers_mm"}
