@@ -32,6 +32,11 @@ class Rack:
     areas: Floats
     goal: int = 0
 
+    @property
+    def exact(self) -> bool:
+        """Tell whether the best strips are found, so that what they are worth bounds all others."""
+        return not any(kind.links for frame in self.frames for kind in frame.kinds)
+
 
 def without(rack: Rack, plans: Sequence[SheetPlan]) -> Rack:
     """Give the rack with the sheets of the plans taken out."""

@@ -97,7 +97,7 @@ def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: C
             best = min(best, _cover(state, counts, solution), key=cost_of)
         elif _still(costs) or _proved(state, best) or not _generate(state, counts, solution):
             break
-    bound = math.ceil(state.bound - USED)
+    bound = math.ceil(state.bound - USED) if rack.exact else None
     return replace(_sink(state, counts, best, task), pattern_bound=bound)
 
 
@@ -107,7 +107,8 @@ def _still(costs: Sequence[float]) -> bool:
 
 def _proved(state: _Dive, best: list[SheetPlan]) -> bool:
     """Tell whether no sheets of strips can be fewer than the best."""
-    return len(state.rack.stock) == 1 and math.ceil(state.bound - USED) >= len(best)
+    alike = len(state.rack.stock) == 1 and state.rack.exact
+    return alike and math.ceil(state.bound - USED) >= len(best)
 
 
 def _generate(state: _Dive, counts: Ints, solution: Solution) -> bool:

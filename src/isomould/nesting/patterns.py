@@ -125,7 +125,8 @@ def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, 
         if not new:
             break
         plans = plans + new
-    return Found(_whole(plans, counts, first), True, bound_pattern(rack, counts, _worth(plans, counts)))
+    bound = bound_pattern(rack, counts, _worth(plans, counts)) if rack.exact else None
+    return Found(_whole(plans, counts, first), True, bound)
 
 
 def _gaining(plans: Sequence[SheetPlan], worth: Floats) -> list[SheetPlan]:

@@ -129,14 +129,14 @@ def _lay_run(run: Run, saw: Saw) -> list[list[_Piece]]:
 def _lay_block(block: Block, saw: Saw, start: int) -> list[_Piece]:
     """Set a block's items beside each other; of both ways to begin a chain of an even number, the shorter."""
     laid = _lay_chain(block, saw, start, 0)
-    if not saw.flips or len(block) % 2:
+    if not saw.flips or len(block) % 2 or block[0].fixed:
         return laid
     return min(laid, _lay_chain(block, saw, start, 1), key=lambda pieces: pieces[-1].end)
 
 
 def _lay_chain(block: Block, saw: Saw, start: int, first: int) -> list[_Piece]:
     """Lay a chain; with `first` 1 its first item makes a half turn, with 0 its second does."""
-    turned = [saw.flips and bool((first + k) % 2) for k in range(len(block))]
+    turned = [saw.flips and bool((first + k) % 2) and not item.fixed for k, item in enumerate(block)]
     shapes = [turn_half(item.shape) if half else item.shape for item, half in zip(block, turned, strict=True)]
     steps = [advance(one, other, saw.gap) for one, other in pairwise(shapes)]
     places = np.cumsum([start] + [step for step, _ in steps])

@@ -11,10 +11,11 @@ from isomould.errors import Refused
 from isomould.nesting.bound import Room, bound_stock, fits, room_inside
 from isomould.nesting.cover import PLENTY, Rack
 from isomould.nesting.layout import Id, Part
+from isomould.nesting.linked import measure_links
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away, stand
 from isomould.nesting.sheets import Frame
-from isomould.nesting.strips import Grid, Kind, sort_kinds
+from isomould.nesting.strips import Grid, Item, Kind, sort_kinds
 
 STEP = 1000
 """Micrometres; the grid on which strips are filled, unless the stock is very long."""
@@ -171,11 +172,18 @@ def _frame(case: Case, kinds: Sequence[Kind], grid: Grid) -> Frame:
 def _fitting(kind: Kind, length: int, capacity: int, grid: Grid) -> tuple[Kind, Kind]:
     """Give the items that fit with the ends of a chain, and those of which just the box does."""
     items = [item for item in kind.items if item.shape.width <= length]
-    ends = kind.ends.odd if kind.ends else 0
-    nested = tuple(item for item in items if item.size + ends <= capacity)
-    boxes = [grid.box(item.part, item.shape) for item in items if item.size + ends > capacity]
+    nested = tuple(item for item in items if _alone(kind, item, grid) <= capacity)
+    boxes = [grid.box(item.part, item.shape) for item in items if _alone(kind, item, grid) > capacity]
     alone = tuple(replace(box, size=min(box.size, capacity)) for box in boxes)
     return replace(kind, items=nested), Kind(kind.height, None, alone)
+
+
+def _alone(kind: Kind, item: Item, grid: Grid) -> int:
+    """Give what a chain of one takes, in grid steps."""
+    if kind.links:
+        links = measure_links([item], grid)
+        return int((links.start + links.end).max())
+    return item.size + (kind.ends.odd if kind.ends else 0)
 
 
 def piece_counts(classes: Sequence[PartClass]) -> Ints:

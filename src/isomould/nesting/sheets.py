@@ -53,7 +53,7 @@ class Frame:
     @cached_property
     def named(self) -> dict[tuple[int, int], Item]:
         """All items by part and rotation."""
-        return {(item.part, item.shape.rotation_deg): item for kind in self.kinds for item in kind.items}
+        return {(item.part, item.shape.rotation_deg): item for kind in self.kinds for item in kind.lying}
 
 
 @dataclass(frozen=True, eq=False)

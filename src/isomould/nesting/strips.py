@@ -19,20 +19,31 @@ from itertools import groupby
 import numpy as np
 
 from isomould.arrays import Bools, Floats, Ints
+from isomould.nesting.linked import LinkedLayer, link_layer, lying, trace_linked
 from isomould.nesting.shapes import Shape, round_away, turn_half, turn_over
 
 
 @dataclass(frozen=True, eq=False)
 class Item:
-    """A part (by its index) in one position; `size` in grid steps."""
+    """A part (by its index) in one position; `size` in grid steps.
+
+    A `fixed` one lies as it is; of others in a chain every second makes a half turn.
+    """
 
     part: int
     shape: Shape
     size: int
+    fixed: bool = False
 
 
 PARITY = 3
 """Grid steps by which the ends of odd and even chains differ at least, so that they are counted apart."""
+
+LONE = 3
+"""Pieces of a kind up to which they are linked to others with other slopes."""
+
+SLANTED = 0.03
+"""Overhang of a part against its width from which that pays."""
 
 Block = tuple[Item, ...]
 """Items of one kind head to tail, or a single item in its box; blocks stand apart by the gap."""
@@ -55,12 +66,20 @@ class Ends:
 class Kind:
     """Items that nest head to tail; `height` in micrometres.
 
-    A kind without `ends` holds items that stand in their boxes.
+    A kind without `ends` holds items that stand in their boxes, or if it has `links` items whose legs differ, to be
+    measured by that grid.
     """
 
     height: int
     ends: Ends | None
     items: tuple[Item, ...]
+    links: "Grid | None" = None
+
+    @property
+    def lying(self) -> Iterator[Item]:
+        """All items in all the ways in which they may lie fixed, or be told to lie."""
+        ways = (1 + self.links.flips) if self.links else 0
+        return (lying(item, way) for item in self.items for way in range(ways)) if ways else iter(self.items)
 
 
 @dataclass(frozen=True)
@@ -81,12 +100,35 @@ class Grid:
         return Item(part, shape, self.up(shape.width + round_away(self.gap)))
 
 
+_Shapes = list[tuple[int, Shape]]
+"""Parts, by their indices, as they stand."""
+
+
 def sort_kinds(shapes: Sequence[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> tuple[Kind, ...]:
     """Group (part, shape) into kinds, ascending in height; a kind of one piece counts as its box."""
     poised = [(part, _poised(shape, grid)) for part, shape in shapes]
     poised.sort(key=lambda pair: (pair[1].height, pair[1].left, pair[1].right, pair[0]))
     groups = (list(group) for _, group in groupby(poised, key=lambda pair: pair[1].height))
-    return tuple(_kind(alike, pieces, grid) for group in groups for alike in _alike(group, grid.gap))
+    return tuple(kind for group in groups for kind in _kinds(list(_alike(group, grid.gap)), pieces, grid))
+
+
+def _kinds(alike: list[_Shapes], pieces: Sequence[int], grid: Grid) -> Iterator[Kind]:
+    """Give the kinds of one height: what has few of its kind and much slant is linked, whatever its slopes."""
+    lone = [shapes for shapes in alike if _is_lone(shapes, pieces)]
+    if len(lone) >= 2:
+        yield _linked([pair for shapes in lone for pair in shapes], grid)
+        alike = [shapes for shapes in alike if not _is_lone(shapes, pieces)]
+    yield from (_kind(shapes, pieces, grid) for shapes in alike)
+
+
+def _is_lone(alike: _Shapes, pieces: Sequence[int]) -> bool:
+    slanted = max(shape.overhang / shape.mean for _, shape in alike) > SLANTED
+    return slanted and sum(pieces[part] for part, _ in alike) <= LONE
+
+
+def _linked(shapes: _Shapes, grid: Grid) -> Kind:
+    items = (Item(part, shape, grid.up(shape.mean + grid.gap)) for part, shape in shapes)
+    return Kind(shapes[0][1].height, None, tuple(items), links=grid)
 
 
 def _poised(shape: Shape, grid: Grid) -> Shape:
@@ -99,7 +141,7 @@ def _poised(shape: Shape, grid: Grid) -> Shape:
     return turn_half(shape) if grid.flips and shape.left < shape.right else shape
 
 
-def _alike(group: list[tuple[int, Shape]], gap: float) -> Iterator[list[tuple[int, Shape]]]:
+def _alike(group: _Shapes, gap: float) -> Iterator[_Shapes]:
     """Split shapes of one height where the legs differ by more than the gap."""
     while group:
         first = group[0][1]
@@ -112,7 +154,7 @@ def _difference(one: Shape, other: Shape) -> float:
     return max(abs(one.left - other.left), abs(one.right - other.right)) * one.height
 
 
-def _kind(alike: list[tuple[int, Shape]], pieces: Sequence[int], grid: Grid) -> Kind:
+def _kind(alike: _Shapes, pieces: Sequence[int], grid: Grid) -> Kind:
     slopes = np.array([(shape.left, shape.right) for _, shape in alike])
     if not slopes.any() or sum(pieces[part] for part, _ in alike) == 1:
         return _boxes(alike, grid)
@@ -143,7 +185,7 @@ def _ends(wedges: Floats, joints: Floats, grid: Grid) -> Ends:
     return Ends(min(even, odd) if grid.flips else odd, odd)
 
 
-def _boxes(alike: list[tuple[int, Shape]], grid: Grid) -> Kind:
+def _boxes(alike: _Shapes, grid: Grid) -> Kind:
     return Kind(alike[0][1].height, None, tuple(grid.box(part, shape) for part, shape in alike))
 
 
@@ -181,7 +223,7 @@ class Priced:
     heights: Ints
     worth: Floats
     tables: list[Floats]
-    layers: list[_Layer]
+    layers: list[_Layer | LinkedLayer]
 
 
 def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int, *, all_lengths: bool = False) -> Priced:
@@ -195,13 +237,14 @@ def price(kinds: Sequence[Kind], counts: Ints, values: Floats, capacity: int, *,
         What a piece is worth: its area in the search, its dual price in column generation.
     """
     best = np.zeros(capacity + 1)
-    layers: list[_Layer] = []
+    layers: list[_Layer | LinkedLayer] = []
     worth: list[float] = []
     tables: list[Floats] = []
     for kind in kinds:
         items = [item for item in kind.items for _ in range(_copies(item, counts, capacity))]
         if items:
-            layers.append(_layer(kind, items, best, values))
+            linked = link_layer(kind, items, best, values, kind.links) if kind.links else None
+            layers.append(linked or _layer(kind, items, best, values))
             worth.append(float(best[-1]))
             tables += [best.copy()] if all_lengths else []
     heights = np.array([layer.kind.height for layer in layers], dtype=np.int64)
@@ -260,7 +303,10 @@ def trace(priced: Priced, index: int, capacity: int) -> list[Block]:
     return [block for block in blocks if block]
 
 
-def _trace_layer(layer: _Layer, room: int) -> tuple[list[Block], int]:
+def _trace_layer(layer: _Layer | LinkedLayer, room: int) -> tuple[list[Block], int]:
+    if isinstance(layer, LinkedLayer):
+        chain, room = trace_linked(layer, room)
+        return [chain], room
     if layer.kind.ends is None:
         items, room = _trace_items(layer, room, 0)
         return [(item,) for item in items], room
