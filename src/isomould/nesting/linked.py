@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from isomould.arrays import Bools, Floats, Ints
+from isomould.arrays import Floats, Ints
 from isomould.nesting.shapes import turn_half
 
 if TYPE_CHECKING:
@@ -78,8 +78,6 @@ class LinkedLayer:
         The best without the kind.
     worth : (n, ways, lengths) float
         The best chain that ends with an item in a way.
-    closed
-        Item, way, and the lengths at which such a chain was the best so far.
     """
 
     kind: "Kind"
@@ -88,7 +86,6 @@ class LinkedLayer:
     links: Links
     base: Floats
     worth: Floats
-    closed: list[tuple[int, int, Bools]]
 
 
 def link_layer(kind: "Kind", items: list["Item"], best: Floats, values: Floats, grid: "Grid") -> LinkedLayer:
@@ -103,11 +100,9 @@ def link_layer(kind: "Kind", items: list["Item"], best: Floats, values: Floats, 
                 _raise(worth[last, way], before, length)
             worth[last, way] += own[last]
     base = best.copy()
-    closed = [
-        (last, way, _end(best, worth[last, way], int(links.end[way, last])))
-        for last, way in np.ndindex(worth.shape[:2])
-    ]
-    return LinkedLayer(kind, ordered, own, links, base, worth, closed)
+    for last, way in np.ndindex(worth.shape[:2]):
+        _raise(best, worth[last, way], int(links.end[way, last]))
+    return LinkedLayer(kind, ordered, own, links, base, worth)
 
 
 def _ways_there(links: Links, base: Floats, worth: Floats, to: tuple[int, int]) -> Iterator[tuple[int, Floats]]:
@@ -119,24 +114,39 @@ def _ways_there(links: Links, base: Floats, worth: Floats, to: tuple[int, int]) 
 
 
 def _raise(worth: Floats, before: Floats, length: int) -> None:
-    if length < len(worth):
+    """Take what is before and a length behind it where that is worth more, in place."""
+    if length == 0:
+        np.maximum(worth, before, out=worth)
+    elif length < len(worth):
         np.maximum(worth[length:], before[:-length], out=worth[length:])
 
 
-def _end(best: Floats, chain: Floats, end: int) -> Bools:
-    closed = chain[: max(len(best) - end, 0)]
-    pays = closed > best[end:]
-    np.maximum(best[end:], closed, out=best[end:])
-    return pays
-
-
 def trace_linked(layer: LinkedLayer, room: int) -> tuple[tuple["Item", ...], int]:
-    """Give the chain that is part of the best in a room, left to right and every item as it lies, and the rest."""
-    for last, way, pays in reversed(layer.closed):
+    """Give the chain that is part of the best in a room, left to right and every item as it lies, and the rest.
+
+    Of chains that are worth the same, the shortest.
+    """
+    found = list(_chains(layer, room))
+    best = max((worth for worth, _, _ in found), default=-np.inf)
+    if best <= layer.base[room]:
+        return (), room
+    length, state = min(
+        (_shortest(layer, state, room - end, best) + end, state) for worth, end, state in found if worth == best
+    )
+    return _trace_chain(layer, state, length - int(layer.links.end[state[1], state[0]]))
+
+
+def _chains(layer: LinkedLayer, room: int) -> Iterator[tuple[float, int, tuple[int, int]]]:
+    """Give the worth of the best chain with every last item in a room, what its end takes, and the item and its way."""
+    for last, way in np.ndindex(layer.worth.shape[:2]):
         end = int(layer.links.end[way, last])
-        if room >= end and pays[room - end]:
-            return _trace_chain(layer, (last, way), room - end)
-    return (), room
+        if room >= end:
+            yield float(layer.worth[last, way, room - end]), end, (last, way)
+
+
+def _shortest(layer: LinkedLayer, state: tuple[int, int], room: int, worth: float) -> int:
+    """Give the least length that is worth as much: worths never fall with the length."""
+    return int(np.searchsorted(layer.worth[state][: room + 1], worth))
 
 
 def _trace_chain(layer: LinkedLayer, state: tuple[int, int], room: int) -> tuple[tuple["Item", ...], int]:
