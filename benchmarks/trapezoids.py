@@ -1,4 +1,4 @@
-"""Part lists of 240 different parts of twelve heights, from a seed: what moulding, trimmed and triangulated skins leave.
+"""Part lists of 240 different parts of twelve heights, from a seed, as trimmed and triangulated skins leave them.
 
 `isosceles` have equal legs, `right` an upright one, `triangles` an upright leg and no short side, `skew` two legs of
 their own. No two parts of a list have equal slopes.
