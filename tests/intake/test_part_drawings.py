@@ -274,6 +274,24 @@ class TestLayers:
         assert [note.text for note in drawing.notes] == ["layers not read: COPY, FRAME, IN THE HOLE, LOGO"]
         assert net_area(drawing) == pytest.approx(400_000 - 900 * np.pi)
 
+    def test_a_layer_that_is_not_shown_may_hold_holes(self, sheet):
+        sheet.document.layers.add("H").freeze()
+        sheet.loop(SQUARE).circle(100, 100, 30, "H").lines([(0, 0), (10, 10)], "H")
+        with pytest.raises(Refused, match=r"E-PART-LAYER.*'H' is frozen and holds 1 CIRCLE"):
+            sheet.read()
+        assert areas(sheet.read(ignored=("H",))) == [400_000]
+
+    def test_layers_that_are_not_read_may_be_drawn_in_space(self, sheet):
+        sheet.loop(SQUARE).lines([(50, 50, 0), (50, 50, 100)], "AXES").lines([(0, 0, 5), (0, 0, 9)], "MORE")
+        assert areas(sheet.read()) == [400_000]
+        with pytest.raises(Refused, match="E-PART-LAYER"):
+            sheet.lines([(100, 100, 0), (200, 100, 5), (200, 200, 9), (100, 100, 0)], "AXES").read()
+
+    def test_a_layer_of_texts_alone_is_no_part(self, sheet):
+        sheet.model.add_text("P", dxfattribs={"layer": "CUT"})
+        with pytest.raises(Refused, match=r"E-PART-NONE.*--layer"):
+            sheet.read(outer="CUT")
+
     def test_what_our_own_drawings_engrave_is_no_hole(self, sheet):
         assert not codes(sheet.loop(SQUARE).circle(100, 100, 30, "ENGRAVE").loop(SQUARE, "SHEET").read())
 

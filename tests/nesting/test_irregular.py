@@ -89,6 +89,11 @@ def test_parts_of_several_sheets_and_those_that_stay_in_strips() -> None:
     assert one.layout.cut_trees
 
 
+def test_a_search_that_is_stopped_keeps_the_strips_and_says_so() -> None:
+    stopped = nest_parts(ANGLES, STOCK, Search("quick", should_stop=lambda: True, jobs=1))
+    assert (len(stopped.layout.sheets), stopped.layout.reproducible) == (2, False)
+
+
 def test_an_answer_that_does_not_hold_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     grown = 2.5 + interlocking.SPARE
 

@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from nesting_examples import GLASS, located, part_lists, racks, rows_of_trapezoids, trapezoid
 
 from isomould.errors import Refused
 from isomould.nesting import portfolio, search
+from isomould.nesting.bound import bound_stock
 from isomould.nesting.checker import check_layout
 from isomould.nesting.files import layout_from_json, layout_to_json
 from isomould.nesting.layout import Layout, Part
@@ -216,6 +218,30 @@ class TestHolesInBounds:
         room = 2105 * 1055 - (4 - np.pi) * gap**2 / 4
         layout = nest_sheets([frame], self.STOCK, Search("quick"))
         assert layout.bound == int(np.ceil(need / room))
+
+    @settings(max_examples=60, deadline=None)
+    @given(
+        st.integers(1, 4),
+        st.integers(1, 4),
+        st.integers(20, 400),
+        st.integers(5, 200),
+        st.integers(0, 30),
+        st.booleans(),
+    )
+    def test_no_bound_exceeds_a_layout_that_fills_the_holes(
+        self, frames: int, across: int, side: int, wall: int, gap: int, lying: bool
+    ) -> None:
+        """As many sheets as frames hold the frames and a row of squares in each, all a gap apart."""
+        inside = across * (side + gap) + gap
+        width, height = inside + 2 * wall, side + 2 * gap + 2 * wall
+        hole = np.array(
+            [[wall, wall], [width - wall, wall], [width - wall, height - wall], [wall, height - wall]], float
+        )
+        frame = shapely.Polygon(trapezoid(width, height, 0, 0), [hole])
+        square = shapely.box(0, 0, side, side)
+        size = {"width": height, "height": width} if lying else {"width": width, "height": height}
+        stock = StockSettings(sheets=(SheetStock(name="s", **size),), gap=gap)
+        assert bound_stock([frame] * frames + [square] * (frames * across), stock).sheets <= frames
 
     def test_parts_that_differ_in_holes_alone_are_two_classes(self) -> None:
         plain = Part("P", trapezoid(1000, 1000, 0, 0), 2)

@@ -15,7 +15,7 @@ from isomould.curves.joining import join_tolerance, joined
 from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.pieces import Piece
 from isomould.curves.sources import LayerContent, LayerDrawing, Source, open_source
-from isomould.curves.spatial import laid_flat
+from isomould.curves.spatial import Traced, laid_flat
 from isomould.errors import Note, Refused
 from isomould.intake.part_loops import (
     Loop,
@@ -36,6 +36,9 @@ _SILENT = {"engrave", "info", "sheet", "defpoints"}
 """Layers that say nothing of what is cut."""
 
 _CURVES = {"LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE"}
+
+_CLOSING = _CURVES - {"LINE"}
+"""What may be a hole by itself, or with a second of its kind."""
 
 _WORDS = (
     "TEXT", "MTEXT", "ATTDEF", "ATTRIB", "POINT", "DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION", "LEADER",
@@ -86,7 +89,8 @@ def read_loops(path: Path, choice: LayerChoice) -> DrawnLoops:
     ------
     Refused
         As every drawing (E-DXF-…, E-DRAWN-…); E-PART-OPEN for a curve that is not closed, E-PART-TWICE for one
-        that is drawn twice besides, E-PART-CROSS for a loop that crosses itself.
+        that is drawn twice besides, E-PART-CROSS for a loop that crosses itself, E-PART-NONE without any curve,
+        E-PART-LAYER for a layer that is not read, not shown, and may hold holes.
     """
     field = str(path)
     source = open_source(path, choice.units, field)
@@ -97,10 +101,14 @@ def read_loops(path: Path, choice: LayerChoice) -> DrawnLoops:
     left = {*_SILENT, *(name.casefold() for name in choice.ignored)}
     known = {outer.casefold(), *(name.casefold() for name in inner), *left}
     unread = [layer for key, layer in layers.items() if key not in known]
+    _refuse_hidden(unread, field)
     drawings = {name: source.trace(name, skip=_WORDS) for name in (outer, *inner)}
     strays = {layer.name: _curves_of(source, layer) for layer in unread if not layer.state and _CURVES & {*layer.kinds}}
     sight = _sight([*drawings.values(), *strays.values()], choice.join, field)
     found = {name: _closed_loops(name, drawing, sight) for name, drawing in drawings.items()}
+    if not found[outer][0]:
+        way_out = "Name the layer of the outline (--layer)."
+        _refuse("NONE", field, f"no curve on layer {outer!r}", "at least one closed outline", way_out)
     notes = [note for _, own in found.values() for note in own]
     return DrawnLoops(
         outer=found[outer][0],
@@ -120,6 +128,17 @@ def _outer_layer(layers: Iterable[LayerContent], asked: str | None, field: str) 
         return named.get(wanted.casefold(), wanted), ()
     text = f"nothing on layer {OUTER!r}: the outline is read from {drawn[0]!r}, the only layer with curves"
     return drawn[0], (Note("W-PART-OUTLINE", field, text),)
+
+
+def _refuse_hidden(unread: Sequence[LayerContent], field: str) -> None:
+    """Refuse layers that are not shown and might hold holes: nobody can see whether they were meant."""
+    for layer in unread:
+        closing = {kind: count for kind, count in layer.kinds.items() if kind in _CLOSING}
+        if layer.state and closing:
+            held = ", ".join(f"{count} {kind}" for kind, count in sorted(closing.items()))
+            found = f"layer {layer.name!r} is {layer.state} and holds {held}, which may be holes"
+            way_out = f'Show the layer in CAD, or give --ignore-layer "{layer.name}" if it is not cut.'
+            _refuse("LAYER", field, found, "layers that are shown, or left out by name", way_out)
 
 
 def _curves_of(source: Source, layer: LayerContent) -> LayerDrawing:
@@ -207,15 +226,26 @@ def _twice_note(names: Sequence[str], layer: str, field: str) -> tuple[Note, ...
 
 def _stray_loops(layer: str, drawing: LayerDrawing, sight: _Sight) -> list[Loop]:
     """Give the closed loops of a layer that is not read, whatever else is drawn there."""
-    if not drawing.traced:
+    seen = [_pressed(one) for one in seen_from(drawing.traced, sight.origin)]
+    if not any(_has_extent(shape.anchors) for one in seen for shape in one.shapes):
         return []
-    strokes, _ = laid_flat(seen_from(drawing.traced, sight.origin), None, sight.field, sight.join)
+    strokes, _ = laid_flat(seen, None, sight.field, sight.join)
     try:
         chains, _ = _chains(without_doubles(strokes, sight.join)[0], sight)
     except Refused:
         # Where curves branch there may be loops all the same.
         return _enclosed(strokes, layer, sight.join)
     return [make_loop(chain.pieces, _called(chain), layer) for chain in chains if chain.closed]
+
+
+def _pressed(one: Traced) -> Traced:
+    """Take the height out of an entity: what is not read may be drawn in space."""
+    flat = np.array([1.0, 1.0, 0.0])
+    return one._replace(shapes=[shape._replace(anchors=shape.anchors * flat) for shape in one.shapes])
+
+
+def _has_extent(anchors: Floats) -> bool:
+    return bool(np.ptp(anchors, axis=0).any())
 
 
 def _enclosed(strokes: Sequence[Stroke[Piece]], layer: str, join: float) -> list[Loop]:

@@ -65,7 +65,10 @@ def nest_parts(parts: Sequence[Part], stock: StockSettings, task: Search) -> Nes
         return Nest(layout, stock, (_hull_note(hulls, areas, cut_straight=cut_straight),))
     free = stock.model_copy(update={"guillotine": False})
     better = interlocked(parts, free, layout, task)
-    return Nest(better, free, ()) if better else Nest(layout, stock, ())
+    if better:
+        return Nest(better, free, ())
+    # A search that was stopped might have found a better layout.
+    return Nest(replace(layout, reproducible=layout.reproducible and not task.stops), stock, ())
 
 
 def hull_areas(parts: Sequence[Part]) -> tuple[float, float]:
