@@ -1,0 +1,3 @@
+"""The makers of the corpus need programs that tests do not."""
+
+collect_ignore_glob = ["make_*.py"]
