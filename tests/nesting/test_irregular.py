@@ -72,6 +72,34 @@ def test_without_the_engine_a_note_says_what_hulls_cost(monkeypatch: pytest.Monk
     assert "isomould[irregular]" in note.text
 
 
+@pytest.mark.parametrize(("version", "serves"), [("0.9.0", True), ("1.0", True), ("0.8.4", False), (None, False)])
+def test_an_engine_that_is_missing_or_too_old_is_none(monkeypatch, version: str | None, serves: bool) -> None:
+    def installed(_: str) -> str:
+        if version is None:
+            raise interlocking.metadata.PackageNotFoundError
+        return version
+
+    monkeypatch.setattr(interlocking.metadata, "version", installed)
+    assert interlocking.has_engine() == serves
+
+
+def test_the_number_of_sheets_is_halved_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sixteen angles: sixteen sheets by hulls, an engine that places three at most on each of them wants six."""
+    asked = list[int]()
+
+    def fill(lots, _) -> irregular._Trial:
+        asked.append(len(lots))
+        largest = max(sum(pieces for _, _, pieces in lot.parts) for lot in lots)
+        return irregular._Trial((interlocking.Answer((), steady=True),) * len(lots) * (largest <= 3), steady=True)
+
+    monkeypatch.setattr(irregular, "_fill", fill)
+    monkeypatch.setattr(irregular, "_layout", lambda parts, stock, sheets, steady: len(sheets))
+    parts, stock = [Part("L", ANGLE, 16)], STOCK.model_copy(update={"guillotine": False})
+    strips = irregular.nest_sheets(parts, stock, Search("quick", jobs=1))
+    assert (len(strips.sheets), irregular.interlocked(parts, stock, strips, Search("quick"))) == (16, 6)
+    assert len(asked) <= 5
+
+
 def test_lists_that_are_nearly_convex_go_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(irregular, "interlocked", None)
     dented = np.array([[0, 0], [900, 0], [900, 500], [450, 495], [0, 500.0]])

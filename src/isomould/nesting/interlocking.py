@@ -4,12 +4,12 @@ The engine knows neither gaps nor sheets: parts grow by half the gap, and a stri
 longer than the sheet is. It counts in 32 bits, so parts grow by a little more, and nothing it says is taken on trust.
 """
 
-import importlib.util
 import json
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,9 @@ from isomould.arrays import Floats
 from isomould.nesting.bound import Room
 from isomould.nesting.placing import Placed
 from isomould.nesting.shapes import UM, micrometres, rotate
+
+OLDEST = (0, 9)
+"""Of spyrrow: before it searches could not be followed, and angles were radians."""
 
 SPARE = 0.005
 """What parts grow by beside half the gap, mm: coordinates of 32 bits are off by less on any sheet."""
@@ -61,8 +64,12 @@ class Answer:
 
 
 def has_engine() -> bool:
-    """Tell whether `spyrrow` is installed: the extra `irregular`."""
-    return importlib.util.find_spec("spyrrow") is not None
+    """Tell whether `spyrrow` is installed, in a version that says how its search goes: the extra `irregular`."""
+    try:
+        installed = metadata.version("spyrrow")
+    except metadata.PackageNotFoundError:
+        return False
+    return tuple(int(number) for number in installed.split(".")[:2]) >= OLDEST
 
 
 def interlock(lot: Lot, attempts: int, stops: Callable[[], bool]) -> Answer:

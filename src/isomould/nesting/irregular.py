@@ -100,28 +100,24 @@ def interlocked(parts: Sequence[Part], stock: StockSettings, layout: Layout, tas
     classes, bins = sort_classes(parts), _bins(layout, stock)
     most = len(bins) if layout.unplaced else len(bins) - 1
     least = max(1, _least_sheets(classes, stock))
-    tried = list[_Trial]()
-
-    def attempt(count: int) -> tuple[Answer, ...]:
-        lots = _deal(classes, bins[:count], stock)
-        tried.append(_fill(lots, task) if lots else _Trial((), steady=True))
-        return tried[-1].answers
-
     if task.stops or most < least:
         return None
+    tried = list[_Trial]()
+    found: tuple[Answer, ...] = ()
+    # Fewer sheets as long as that goes well, more where it does not, halving from where it is expected.
+    failed, enough = least - 1, most + 1
     count = min(max(_expected_sheets(classes, bins), least), most)
-    found = attempt(count)
-    if found:
-        # Fewer, as long as that goes well.
-        while count > least and (fewer := attempt(count - 1)):
-            found, count = fewer, count - 1
-    else:
-        while not found and count < most and not task.stops:
-            count += 1
-            found = attempt(count)
+    while failed + 1 < enough and not task.stops:
+        lots = _deal(classes, bins[:count], stock)
+        tried.append(_fill(lots, task) if lots else _Trial((), steady=True))
+        if tried[-1].answers:
+            found, enough = tried[-1].answers, count
+        else:
+            failed = count
+        count = (failed + enough) // 2
     if not found:
         return None
-    steady = layout.reproducible and all(trial.steady for trial in tried)
+    steady = layout.reproducible and not task.stops and all(trial.steady for trial in tried)
     return _layout(parts, stock, list(zip(bins, found, strict=False)), steady=steady)
 
 
