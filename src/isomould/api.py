@@ -216,7 +216,7 @@ def nest(
     from isomould.intake.member_list import lists_members, read_member_list
     from isomould.intake.read import Asked, read_part_list
     from isomould.intake.stock import read_stock
-    from isomould.nesting.irregular import nest_parts
+    from isomould.nesting.grouped import nest_materials
     from isomould.nesting.search import Search
     from isomould.nesting.stop import Stop
     from isomould.workers import workers
@@ -236,7 +236,7 @@ def nest(
     given = read_part_list(Path(instance), asked)
     for note in given.notes:
         (remark or _ignore)(note)
-    found = nest_parts(given.instance.parts, given.instance.stock, search)
+    found = nest_materials(given.instance.parts, given.instance.stock, search)
     for note in found.notes:
         (remark or _ignore)(note)
     layout, given = _marked(found.layout, stop), replace(given, instance=replace(given.instance, stock=found.stock))

@@ -56,7 +56,8 @@ def sheet_files(folder: Path, prefix: str, layout: Layout, stock: StockSettings,
 
 def write_sheet(file: SheetFile) -> None:
     """Write the drawing of a sheet."""
-    drawing = sheet_drawing(file.sheet.width, file.sheet.height, file.parts, file.scores, file.orientation)
+    sheet, material = file.sheet, str(file.sheet.material)
+    drawing = sheet_drawing(sheet.width, sheet.height, file.parts, file.scores, file.orientation, material)
     write_versions(file.folder, file.name, drawing, file.asked)
 
 

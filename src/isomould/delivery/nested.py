@@ -18,7 +18,7 @@ from isomould.documents.stock_tables import bar_table, saw_table
 from isomould.errors import CertificateFailed, Refused
 from isomould.intake.member_rows import MemberList
 from isomould.intake.part_list import Hole, PartList
-from isomould.nesting.files import bars_to_json, layout_to_json
+from isomould.nesting.files import bars_to_json, layout_to_json, said
 from isomould.nesting.layout import BarLayout, Layout, Part
 from isomould.templates import template_folder
 from isomould.verify import Certificate, verify_nest
@@ -182,7 +182,9 @@ def nest_json(layout: Layout, given: PartList) -> str:
 
 
 def _part(part: Part, holes: Sequence[Hole]) -> dict[str, Any]:
-    table = {"id": part.id, "quantity": part.quantity, "points": part.outline.tolist()}
+    grain = {"grain": part.grain} if part.grain else {}
+    outline = {"id": part.id, "quantity": part.quantity, "points": part.outline.tolist()}
+    table = {**outline, **said(part.material), **grain}
     return {**table, "holes": [_hole(hole) for hole in holes]} if holes else table
 
 

@@ -71,6 +71,7 @@ def sheet_drawing(
     placements: Iterable[PartOnSheet],
     scores: Floats | None = None,
     orientation: str | None = None,
+    material: str = "",
 ) -> CutDrawing:
     """Draw a nested sheet: stock outline, contours, engraved marks with locations, information.
 
@@ -84,12 +85,15 @@ def sheet_drawing(
         Lines to score, in cutting order: then the contours go to INFO, because nothing is cut.
     orientation : str, optional
         Engrave an arrow to every part's first side, and this text beside it.
+    material : str
+        What the sheet is made of: information below it.
     """
     layer: Layer = "CUT" if scores is None else "INFO"
     stock = Polyline("SHEET", np.array([[0, 0], [width, 0], [width, height], [0, height]], float), True)
     lines = [Polyline("SCORE", line, False) for line in ([] if scores is None else scores)]
     parts = [entity for placement in placements for entity in _placed(layer, orientation, placement)]
-    return CutDrawing((stock, *parts, *lines))
+    below = [_info(_literal(material), 0.0, -2 * _INFO_HEIGHT)] if material else []
+    return CutDrawing((stock, *parts, *lines, *below))
 
 
 def _placed(layer: Layer, orientation: str | None, part: PartOnSheet) -> list[Entity]:

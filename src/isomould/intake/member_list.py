@@ -5,12 +5,14 @@ from pathlib import Path
 from typing import Any
 
 from isomould.errors import Note
+from isomould.intake.bar_grades import keep_grades_apart
 from isomould.intake.csv_list import Sheet, heading_names, read_sheet
 from isomould.intake.instance import NOTHING, make_stock, parse_json, read_text
 from isomould.intake.member_rows import MemberList, read_members, refuse_unlike_ends
-from isomould.intake.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show
+from isomould.intake.part_rows import TRAPEZOID, Row, get, mapping, refuse, refuse_unknown, show, to_material
 from isomould.intake.table_rows import is_table
 from isomould.intake.table_words import MEMBERS, Line, Reading
+from isomould.nesting.material import Material
 
 _STOCK = {"bars", "bar_kerf", "bar_trim", "bar_ends"}
 _ANGLES = ("end_angle_start", "end_angle_end")
@@ -69,11 +71,19 @@ def read_member_list(
 def _made(name: str, rows: list[Row], stock: Mapping[str, Any], file: str) -> MemberList:
     members, settings = read_members(rows, file), make_stock(stock, file, "bars")
     refuse_unlike_ends(rows, settings)
-    return MemberList(name, members, settings)
+    grades = [_grade_of(row, field) for row, field in rows]
+    return MemberList(name, *keep_grades_apart(list(zip(members, grades, strict=True)), settings))
+
+
+def _grade_of(row: object, field: str) -> Material:
+    """Give the grade of a member: steel lists have it in a column of materials, alone or before the grade."""
+    said = to_material(mapping(row, field), field)
+    return Material(grade=" ".join(word for word in (said.material, said.grade) if word))
 
 
 def _row(sheet: Sheet, line: Line) -> Row:
     depth = {"depth": sheet.number(line, "depth")} if line.cells.get("depth") else {}
     angles = {key: sheet.angle(line, key) for key in _ANGLES}
     own = {"section": line.cells["section"], "id": line.cells["id"], "quantity": sheet.quantity(line)}
-    return {**own, "length": sheet.number(line, "length"), **depth, **angles}, line.field
+    made_of = {name: line.cells[name] for name in ("material", "grade") if line.cells.get(name)}
+    return {**own, **made_of, "length": sheet.number(line, "length"), **depth, **angles}, line.field

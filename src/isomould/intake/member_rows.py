@@ -22,7 +22,7 @@ from isomould.nesting.settings import StockSettings
 STEEPEST = 80.0
 """Largest angle of an end from square, degrees."""
 
-_KEYS = {"section", "id", "quantity", "length", "depth", "end_angle_start", "end_angle_end"}
+_KEYS = {"section", "id", "quantity", "length", "depth", "end_angle_start", "end_angle_end", "material", "grade"}
 
 
 @dataclass(frozen=True, eq=False)

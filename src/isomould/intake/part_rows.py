@@ -10,7 +10,8 @@ import shapely
 
 from isomould.arrays import Floats, read_only, round_um
 from isomould.errors import Refused
-from isomould.nesting.layout import Id, Member, Part
+from isomould.nesting.layout import Grain, Id, Member, Part
+from isomould.nesting.material import NAMES, Material
 
 LONGEST = 1e6
 """mm; no stock is a kilometre long."""
@@ -20,7 +21,10 @@ MOST_PIECES = 200_000
 TRAPEZOID = ("a", "b", "h", "ol", "orr")
 """Lower and upper side, height, and what the upper side stands back at its left and right."""
 
-_KEYS = {"id", "row", "quantity", "points", *TRAPEZOID}
+_GRAINS: dict[object, Grain] = {"length": "along", "width": "across"}
+"""By the words of lists: the length of a part lies along x."""
+
+_KEYS = {"id", "row", "quantity", "points", "grain", *NAMES, *TRAPEZOID}
 
 Row = tuple[object, str]
 """What a file says of a part, and how messages call it: its place in the file."""
@@ -57,7 +61,34 @@ def _read_part(row: object, field: str) -> Part:
     mark = to_id(get(table, "id", field), f"{field}.id")
     group = None if table.get("row") is None else to_id(table["row"], f"{field}.row")
     quantity = to_quantity(table.get("quantity", 1), f"{field}.quantity")
-    return Part(mark, _outline(table, field), quantity, group)
+    grain = _grain(table.get("grain"), f"{field}.grain")
+    outline = _outline(table, field)
+    return Part(mark, outline, quantity, group, material=to_material(table, field), grain=grain)
+
+
+def _grain(value: object, field: str) -> Grain | None:
+    if value is not None and value not in _GRAINS:
+        refuse(field, show(value), "length, width, or nothing")
+    return _GRAINS.get(value)
+
+
+def to_material(table: Mapping[str, object], field: str) -> Material:
+    """Give the material, grade and thickness of a row."""
+    material, grade = (_word(table.get(name), f"{field}.{name}") for name in ("material", "grade"))
+    if table.get("thickness") is None:
+        return Material(material, grade)
+    thickness = to_number(table["thickness"], f"{field}.thickness")
+    if thickness <= 0:
+        refuse(f"{field}.thickness", f"{thickness:g} mm", "greater than zero")
+    return Material(material, grade, round(thickness, 3))
+
+
+def _word(value: object, field: str) -> str:
+    if value is None:
+        return ""
+    if not isinstance(value, str) or not value.isprintable() or len(value) > 120:
+        refuse(field, show(value), "one line of printable text of at most 120 characters")
+    return value.strip()
 
 
 def _outline(table: Mapping[str, object], field: str) -> Floats:

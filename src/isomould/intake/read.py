@@ -10,11 +10,12 @@ from isomould.intake.csv_list import Sheet, read_sheet
 from isomould.intake.drawn_part import PartDrawing, read_part_drawing
 from isomould.intake.drawn_rows import drawn_rows, with_drawings
 from isomould.intake.instance import Instance, make_stock, read_instance
+from isomould.intake.material_cells import grain_cell, grain_note, material_cells
 from isomould.intake.numbers import to_count
 from isomould.intake.part_layers import LayerChoice
 from isomould.intake.part_list import PartList
 from isomould.intake.part_rows import TRAPEZOID, Row, read_parts, refuse
-from isomould.intake.rectangles import Sides, box_note, rectangle, sides_of
+from isomould.intake.rectangles import Sides, box_note, names_of, rectangle, sides_of
 from isomould.intake.table_rows import is_table
 from isomould.intake.table_words import PARTS, Line, Reading
 from isomould.intake.words import listed
@@ -104,25 +105,39 @@ def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
 def _made(name: str, sheet: Sheet, files: Mapping[str, Path], asked: Asked) -> PartList:
     """Make the parts of a table, some of them drawn; `files` by the field of their line."""
     sides, stock = sides_of(sheet), make_stock(asked.stock, sheet.file)
-    drawn = {key: _drawing(file, asked, stock) for key, file in files.items()}
+    held = {line.field for line in sheet.lines if line.field in files and grain_cell(line, *_DRAWN)}
+    drawn = {key: _drawing(file, asked, stock, held=key in held) for key, file in files.items()}
     rows = [row for line in sheet.lines for row in _rows(sheet, line, drawn.get(line.field), sides)]
     instance = Instance(name, read_parts(rows, sheet.file), stock)
-    notes = (*sheet.notes, *box_note(sheet, sides))
+    notes = (*sheet.notes, *box_note(sheet, sides), *grain_note(instance))
     return with_drawings(instance, {line.cells["id"]: drawn.get(line.field) for line in sheet.lines}, notes)
 
 
-def _drawing(file: Path, asked: Asked, stock: StockSettings) -> PartDrawing:
-    """Read a drawing; where material has a direction, parts stay as they are drawn."""
-    free = stock.turning == "quarter" and not any(sheet.grain for sheet in stock.sheets)
+def _drawing(file: Path, asked: Asked, stock: StockSettings, *, held: bool = False) -> PartDrawing:
+    """Read a drawing; where material has a direction, or the part is held, it stays as it is drawn."""
+    free = stock.turning == "quarter" and not held and not any(sheet.grain for sheet in stock.sheets)
     return read_part_drawing(file, asked.choice, turns=free)
 
 
 def _rows(sheet: Sheet, line: Line, drawing: PartDrawing | None, sides: Sides | None) -> list[Row]:
     group = {"row": line.cells["row"]} if line.cells.get("row") else {}
-    table = {"id": line.cells["id"], "quantity": sheet.quantity(line), **group}
+    shared = {**material_cells(sheet, line), **grain_cell(line, *_axes(sheet, line, drawing, sides))}
+    table = {"id": line.cells["id"], "quantity": sheet.quantity(line), **group, **shared}
     if drawing is not None:
         return drawn_rows(table, drawing, line.field)
     return [({**table, **_shape(sheet, line, sides)}, line.field)]
+
+
+_DRAWN = ("length", "width")
+"""What the sizes along x and y of outlines are called that have no sizes."""
+
+
+def _axes(sheet: Sheet, line: Line, drawing: PartDrawing | None, sides: Sides | None) -> tuple[str, str]:
+    """Give what the sizes along x and y are called."""
+    drawn = drawing is not None or bool(line.cells.get("points"))
+    if sides is None or drawn or all(line.cells.get(key) for key in TRAPEZOID):
+        return _DRAWN
+    return names_of(sheet, line, sides)
 
 
 def _shape(sheet: Sheet, line: Line, sides: Sides | None) -> dict[str, Any]:

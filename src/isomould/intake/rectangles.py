@@ -48,8 +48,9 @@ def box_note(sheet: Sheet, sides: Sides | None) -> tuple[Note, ...]:
 def rectangle(sheet: Sheet, line: Line, sides: Sides) -> dict[str, float]:
     """Give a rectangle as a trapezoid, and its thickness where the table has three sizes of a box, mm."""
     sizes = _sizes(sheet, line, sides)
-    across, up, *_ = sizes.values()
-    return {"a": across, "b": across, "h": up, "ol": 0.0, "orr": 0.0}
+    across, up, *rest = sizes.values()
+    thickness = {"thickness": rest[0]} if rest else {}
+    return {"a": across, "b": across, "h": up, "ol": 0.0, "orr": 0.0, **thickness}
 
 
 def names_of(sheet: Sheet, line: Line, sides: Sides) -> tuple[str, str]:

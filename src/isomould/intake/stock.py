@@ -2,11 +2,14 @@
 
 import re
 import tomllib
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from isomould.intake.instance import read_text
 from isomould.intake.part_rows import mapping, refuse
+from isomould.intake.vocabulary import says
+from isomould.nesting.material import Material
 from isomould.units import parse_length
 
 
@@ -50,7 +53,7 @@ def length_of(text: str) -> float:
 
 
 def sheet_of(text: str) -> dict[str, Any]:
-    """Give the stock sheet that an option says: its width and height.
+    """Give the stock sheet that an option says: its width and height, and behind them other keys.
 
     Raises
     ------
@@ -61,13 +64,51 @@ def sheet_of(text: str) -> dict[str, Any]:
     --------
     >>> sheet_of("6000x3210"), sheet_of("2.5 m x 49 in")["height"]
     ({'name': '6000 x 3210', 'width': 6000.0, 'height': 3210.0}, 1244.6)
+    >>> sheet_of("2500x1250 material=Clear float thickness=18")["name"]
+    '2500 x 1250 Clear float 18 mm'
     """
-    sides = [side.strip() for side in re.split("[xX×]", text)]
+    size, said = _with_keys(text, _SHEET_KEYS)
+    sides = [side.strip() for side in re.split("[xX×]", size)]
     if len(sides) != 2:
         message = f"{text!r} is no sheet; width x height, such as 6000x3210 or '6 m x 3.21 m'"
         raise ValueError(message)
     width, height = map(length_of, sides)
-    return {"name": f"{width:.12g} x {height:.12g}", "width": width, "height": height}
+    material = Material(said.get("material", ""), said.get("grade", ""), said.get("thickness"))
+    name = f"{width:.12g} x {height:.12g} {material}".strip()
+    return {"name": name, "width": width, "height": height, **said}
+
+
+def _with_keys(text: str, keys: Mapping[str, Callable[[str], Any]]) -> tuple[str, dict[str, Any]]:
+    """Take keys with their values from behind a size: `2500x1250 material=Clear float price=30`."""
+    size, *pairs = re.split(rf"\s+(?=(?:{'|'.join(keys)})\s*=)", text.strip())
+    said = dict[str, Any]()
+    for pair in pairs:
+        key, _, value = (part.strip() for part in pair.partition("="))
+        if key in said or not value:
+            message = f"{pair!r}: {key} has no value, or is said twice"
+            raise ValueError(message)
+        said[key] = keys[key](value)
+    return size, said
+
+
+def _flag(text: str) -> bool:
+    if not says(text, "yes") and not says(text, "no"):
+        message = f"{text!r} is neither yes nor no"
+        raise ValueError(message)
+    return says(text, "yes")
+
+
+_SHEET_KEYS: dict[str, Callable[[str], Any]] = {
+    "name": str,
+    "material": str,
+    "grade": str,
+    "thickness": length_of,
+    "price": float,
+    "quantity": int,
+    "grain": _flag,
+}
+
+_BAR_KEYS: dict[str, Callable[[str], Any]] = {"grade": str, "price": float, "quantity": int}
 
 
 def bar_of(text: str) -> dict[str, Any]:
@@ -82,9 +123,12 @@ def bar_of(text: str) -> dict[str, Any]:
     --------
     >>> bar_of("FL200*12=6 m")
     {'section': 'FL200*12', 'length': 6000.0}
+    >>> bar_of("HEA200=12 m grade=S355")["grade"]
+    'S355'
     """
-    section, _, length = text.rpartition("=")
+    size, said = _with_keys(text, _BAR_KEYS)
+    section, _, length = size.rpartition("=")
     if not section.strip():
         message = f"{text!r} is no bar; section=length, such as 'FL200*12=6 m'"
         raise ValueError(message)
-    return {"section": section.strip(), "length": length_of(length.strip())}
+    return {"section": section.strip(), "length": length_of(length.strip()), **said}

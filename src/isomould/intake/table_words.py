@@ -20,8 +20,10 @@ class Words:
         return frozenset((*self.lengths, *self.others))
 
 
-_COMMON = ("id", "quantity", "enabled")
-PARTS = Words((*TRAPEZOID, "length", "width", "height"), (*_COMMON, "row", "points", "files"))
+_COMMON = ("id", "quantity", "material", "grade", "enabled")
+PARTS = Words(
+    (*TRAPEZOID, "length", "width", "height", "thickness"), (*_COMMON, "row", "points", "files", "grain", "turn")
+)
 MEMBERS = Words(("length", "depth"), (*_COMMON, "section", "end_angle_start", "end_angle_end"))
 
 

@@ -10,7 +10,7 @@ import shapely
 from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Floats
-from isomould.nesting.layout import BoundKind
+from isomould.nesting.layout import BoundKind, Grain
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away
 
@@ -105,13 +105,14 @@ def room_of(sheet: SheetStock, stock: StockSettings) -> float:
     return grown_rectangle(sheet.width - 2 * stock.trim, sheet.height - 2 * stock.trim, stock.gap)
 
 
-def fits(outline: Floats, sheet: SheetStock, stock: StockSettings) -> bool:
+def fits(outline: Floats, sheet: SheetStock, stock: StockSettings, grain: Grain | None = None) -> bool:
     """Tell whether an outline fits inside the trim of a sheet, in a rotation that is allowed there."""
+    allowed = allowed_rotations_deg(stock, sheet, grain)
     room = room_inside(sheet.width, sheet.height, stock.trim)
     width, height = np.ptp(micrometres(outline), axis=0)
     upright = bool(width <= room.width and height <= room.height)
     turned = bool(height <= room.width and width <= room.height)
-    return upright or (turned and 90 in allowed_rotations_deg(stock, sheet))
+    return (upright and 0 in allowed) or (turned and 90 in allowed)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ import shapely
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cut_checker import replay, sheet_inside, stands_out
-from isomould.nesting.layout import BLANK, CutTree, Layout, Part, Placement, Sheet
+from isomould.nesting.layout import BLANK, CutTree, Grain, Id, Layout, Part, Placement, Sheet
+from isomould.nesting.material_checker import material_faults
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.twins import first_twins, without_twins
 
@@ -56,8 +57,8 @@ def _found(
     return tuple(finding for check in checks for finding in check(parts, stock, layout))
 
 
-def _form(part: Part) -> tuple[int, bytes]:
-    return len(part.outline), part.outline.tobytes()
+def _form(part: Part) -> tuple[int, bytes, Grain | None]:
+    return len(part.outline), part.outline.tobytes(), part.grain
 
 
 def _check_names(parts: Sequence[Part], _: StockSettings, layout: Layout) -> Iterator[Finding]:
@@ -129,11 +130,12 @@ def _same_size(sheet: Sheet, kind: SheetStock) -> bool:
 
 def _check_transforms(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
     outlines = {part.id: _micrometres(part.outline) for part in parts}
+    grains: dict[Id, Grain | None] = {part.id: part.grain for part in parts}
     rack = {sheet.name: sheet for sheet in stock.sheets}
     kinds = {sheet.id: rack.get(sheet.stock) for sheet in layout.sheets}
     for item in layout.placements:
         yield from _check_transform(item, outlines[item.id])
-        yield from _check_rotation(item, stock, kinds[item.sheet])
+        yield from _check_rotation(item, stock, kinds[item.sheet], grains[item.id])
 
 
 def _check_transform(item: Placement, outline: Ints) -> Iterator[Finding]:
@@ -148,8 +150,10 @@ def _check_transform(item: Placement, outline: Ints) -> Iterator[Finding]:
         yield Finding("N-PLACE-02", where, found, "a rigid movement of the part")
 
 
-def _check_rotation(item: Placement, stock: StockSettings, kind: SheetStock | None) -> Iterator[Finding]:
-    allowed = allowed_rotations_deg(stock, kind)
+def _check_rotation(
+    item: Placement, stock: StockSettings, kind: SheetStock | None, grain: Grain | None
+) -> Iterator[Finding]:
+    allowed = allowed_rotations_deg(stock, kind, grain)
     if item.rotation_deg not in allowed:
         where = f"part {item.id} on {item.sheet}"
         yield Finding("N-PLACE-03", where, f"{item.rotation_deg} degrees", f"one of {allowed} degrees")
@@ -165,6 +169,10 @@ def _turn(outline: Ints, rotation_deg: int, turned_over: bool) -> Ints:
 
 def _micrometres(points: Floats) -> Ints:
     return np.rint(points * 1e3).astype(np.int64)
+
+
+def _check_materials(parts: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
+    yield from (Finding(*fault) for fault in material_faults(parts, stock, layout))
 
 
 def _check_edges(_: Sequence[Part], stock: StockSettings, layout: Layout) -> Iterator[Finding]:
@@ -286,7 +294,14 @@ def _check_tree(
 _NAMES: tuple[_Check, ...] = (_check_names,)
 """What all other checks take for granted."""
 
-_WHOLE: tuple[_Check, ...] = (_check_quantities, _check_locations, _check_stock, _check_areas, _check_offcut)
+_WHOLE: tuple[_Check, ...] = (
+    _check_quantities,
+    _check_locations,
+    _check_stock,
+    _check_materials,
+    _check_areas,
+    _check_offcut,
+)
 """Checks of the layout as a whole."""
 
 _SHEET_BY_SHEET: tuple[_Check, ...] = (_check_edges, _check_gaps, _check_cuts)

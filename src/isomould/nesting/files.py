@@ -10,6 +10,7 @@ import numpy as np
 from isomould.arrays import read_only
 from isomould.errors import Refused
 from isomould.nesting.layout import BarLayout, Layout, Offcut, Placement, Sheet, Unplaced
+from isomould.nesting.material import NAMES, Material
 
 SCHEMA = 1
 NOTHING_MORE: Mapping[str, Any] = MappingProxyType({})
@@ -35,7 +36,7 @@ def layout_to_json(layout: Layout, more: Mapping[str, Any] = NOTHING_MORE) -> st
         "schema": SCHEMA,
         "status": layout.status,
         "reproducible": layout.reproducible,
-        "sheets": [vars(sheet) for sheet in layout.sheets],
+        "sheets": [_sheet(sheet) for sheet in layout.sheets],
         "bound": layout.bound,
         "bound_kind": layout.bound_kind,
         "gap_to_bound": layout.gap_to_bound,
@@ -76,6 +77,15 @@ def bars_to_json(layout: BarLayout, more: Mapping[str, Any] = NOTHING_MORE) -> s
     return json.dumps(table, ensure_ascii=False, allow_nan=False) + "\n"
 
 
+def _sheet(sheet: Sheet) -> dict[str, Any]:
+    return {"id": sheet.id, "stock": sheet.stock, "width": sheet.width, "height": sheet.height, **said(sheet.material)}
+
+
+def said(material: Material) -> dict[str, Any]:
+    """Give what is said of a material, nothing of what is not."""
+    return {name: value for name in NAMES if (value := getattr(material, name)) not in ("", None)}
+
+
 def _placement(item: Placement) -> dict[str, Any]:
     return {**vars(item), "points": item.points.tolist()}
 
@@ -104,7 +114,7 @@ def _layout(table: dict[str, Any]) -> Layout:
         message = f"schema {table['schema']!r}"
         raise ValueError(message)
     return Layout(
-        sheets=tuple(Sheet(**sheet) for sheet in table["sheets"]),
+        sheets=tuple(_read_sheet(sheet) for sheet in table["sheets"]),
         placements=tuple(_read_placement(item) for item in table["placements"]),
         unplaced=tuple(_read_unplaced(item) for item in table["unplaced"]),
         cut_trees=table["cut_tree"] or {},
@@ -113,6 +123,11 @@ def _layout(table: dict[str, Any]) -> Layout:
         offcut=Offcut(**table["offcut"]) if table["offcut"] else None,
         **{key: table[key] for key in _PLAIN},
     )
+
+
+def _read_sheet(table: dict[str, Any]) -> Sheet:
+    material = Material(**{name: table[name] for name in NAMES if name in table})
+    return Sheet(table["id"], table["stock"], table["width"], table["height"], material)
 
 
 def _read_placement(item: dict[str, Any]) -> Placement:

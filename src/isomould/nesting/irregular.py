@@ -19,7 +19,7 @@ from isomould.nesting.assembly import Filled, Filling, make_layout
 from isomould.nesting.bound import bound_stock, fits, room_inside, room_of
 from isomould.nesting.interlocking import WORKERS, Answer, Lot, has_engine, interlock
 from isomould.nesting.layout import Layout, Part
-from isomould.nesting.nest import nest_sheets, prove
+from isomould.nesting.nest import nest_sheets, of_material, prove
 from isomould.nesting.rack import PartClass, sort_classes
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
@@ -61,8 +61,9 @@ def nest_parts(parts: Sequence[Part], stock: StockSettings, task: Search) -> Nes
         return Nest(nest_sheets(parts, stock, task), stock, ())
     cut_straight = stock.scored or (stock.guillotine and "guillotine" in stock.model_fields_set)
     layout = nest_sheets(parts, stock, task)
-    if cut_straight or not has_engine():
-        return Nest(layout, stock, (_hull_note(hulls, areas, cut_straight=cut_straight),))
+    held = len({part.grain for part in parts}) > 1
+    if cut_straight or held or not has_engine():
+        return Nest(layout, stock, (_hull_note(hulls, areas, cut_straight=cut_straight, held=held),))
     free = stock.model_copy(update={"guillotine": False})
     better = interlocked(parts, free, layout, task)
     if better:
@@ -79,11 +80,13 @@ def hull_areas(parts: Sequence[Part]) -> tuple[float, float]:
     return float(counts @ hulls), float(counts @ shapely.area(outlines))
 
 
-def _hull_note(hulls: float, areas: float, *, cut_straight: bool) -> Note:
+def _hull_note(hulls: float, areas: float, *, cut_straight: bool, held: bool) -> Note:
     size = f"concave parts are nested by their hulls, {hulls / 1e6:.2f} m² for {areas / 1e6:.2f} m² of parts"
-    way_out = (
-        "the stock is cut from edge to edge" if cut_straight else "pip install isomould[irregular] interlocks them"
-    )
+    way_out = "pip install isomould[irregular] interlocks them"
+    if cut_straight:
+        way_out = "the stock is cut from edge to edge"
+    elif held:
+        way_out = "their grains differ"
     return Note("W-NEST-HULL", "parts", f"{size} (+{100 * (hulls / areas - 1):.0f} %): {way_out}")
 
 
@@ -147,7 +150,7 @@ def _deal(classes: Sequence[PartClass], bins: Sequence[SheetStock], stock: Stock
     order = sorted(range(len(classes)), key=lambda k: (-round(polygons[k].convex_hull.area, 3), k))
     filled, dealt = np.zeros(len(bins)), [Counter[int]() for _ in bins]
     for k in order:
-        fitting = np.array([fits(classes[k].outline, sheet, stock) for sheet in bins])
+        fitting = np.array([fits(classes[k].outline, sheet, stock, classes[k].grain) for sheet in bins])
         if not fitting.any():
             return []
         for _ in classes[k].pieces:
@@ -163,7 +166,9 @@ def _deal(classes: Sequence[PartClass], bins: Sequence[SheetStock], stock: Stock
 def _lot(classes: Sequence[PartClass], pieces: Counter[int], sheet: SheetStock, stock: StockSettings) -> Lot:
     parts = tuple((k, classes[k].outline, pieces[k]) for k in sorted(pieces))
     room = room_inside(sheet.width, sheet.height, stock.trim)
-    return Lot(parts, allowed_rotations_deg(stock, sheet), room, stock.gap)
+    # Parts of one grain: others are nested in strips.
+    grain = classes[min(pieces)].grain
+    return Lot(parts, allowed_rotations_deg(stock, sheet, grain), room, stock.gap)
 
 
 def _fill(lots: Sequence[Lot], task: Search) -> _Trial:
@@ -216,4 +221,5 @@ def _layout(
     ]
     bound = bound_stock([part.polygon for part in parts for _ in range(part.quantity)], stock)
     layout = make_layout([Filling(tuple(filled), ())], bound, ended=steady)
-    return prove(parts, stock, replace(layout, cut_trees={}, no_cuts=REASON))
+    sheets_made = of_material(layout, parts, stock)
+    return prove(parts, stock, replace(layout, sheets=sheets_made, cut_trees={}, no_cuts=REASON))

@@ -7,12 +7,16 @@ from typing import Any, Literal
 import shapely
 
 from isomould.arrays import Floats
+from isomould.nesting.material import Material
 
 Id = int | str
 """The name of a part: the mark in the pipeline, whatever the file says in a part list of others."""
 
 Status = Literal["complete", "interrupted", "incomplete"]
 BoundKind = Literal["area", "lp"]
+Grain = Literal["along", "across"]
+"""How the grain of a part lies to the x axis of its outline; on a sheet it runs along the width."""
+
 Turned = Literal["none", "end_for_end", "upside_down", "both"]
 """How a piece lies on its bar compared with its member: turned by 180 degrees in its plane, mirrored top to bottom."""
 
@@ -22,6 +26,8 @@ CutTree = dict[str, Any]
 Line k has pieces 0 to k at its left, looking from its first point to its second, and the others at its
 right. An offcut is `{}`, a part `{"placement": index}`. The trim is cut off first.
 """
+
+NO_MATERIAL = Material()
 
 BLANK = "blank"
 """Stock name of blanks to order."""
@@ -39,6 +45,10 @@ class Part:
         One per piece, or none at all.
     holes : tuple of (n, 2) float, mm
         Rings inside the outline that hold what is cut out of it: other parts may lie there.
+    material
+        Parts of one sheet share it.
+    grain
+        None where the part may be turned as the stock allows.
     """
 
     id: Id
@@ -47,6 +57,8 @@ class Part:
     row: Id | None = None
     locations: tuple[str, ...] = ()
     holes: tuple[Floats, ...] = ()
+    material: Material = NO_MATERIAL
+    grain: Grain | None = None
 
     @cached_property
     def polygon(self) -> shapely.Polygon:
@@ -62,6 +74,7 @@ class Sheet:
     stock: str
     width: float
     height: float
+    material: Material = NO_MATERIAL
 
 
 @dataclass(frozen=True, eq=False)

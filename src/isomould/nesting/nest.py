@@ -10,7 +10,7 @@ from isomould.nesting.assembly import Filling, fill_blanks, fill_stock, make_lay
 from isomould.nesting.bound import Bound, bound_stock, dilated_area, grown_rectangle, sheets_for
 from isomould.nesting.checker import check_layout
 from isomould.nesting.cover import fill_sheets
-from isomould.nesting.layout import Id, Layout, Part
+from isomould.nesting.layout import Id, Layout, Part, Sheet
 from isomould.nesting.offcuts import measure_cuts
 from isomould.nesting.portfolio import find_plans
 from isomould.nesting.rack import (
@@ -51,7 +51,16 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     polygons = {part.id: part.polygon for part in parts}
     placed = [polygons[item[0][0]] for sheet in filling.filled for item in sheet.placed]
     layout = make_layout([filling], bound_stock(placed, stock), ended=found.ended)
-    return prove(parts, stock, replace(layout, pattern_bound=found.pattern_bound))
+    layout = replace(layout, sheets=of_material(layout, parts, stock), pattern_bound=found.pattern_bound)
+    return prove(parts, stock, layout)
+
+
+def of_material(layout: Layout, parts: Sequence[Part], stock: StockSettings) -> tuple[Sheet, ...]:
+    """Give the sheets with what they are made of: what their parts say, and what is said of the stock besides."""
+    of_part = {part.id: part.material for part in parts}
+    of_stock = {kind.name: kind.made_of for kind in stock.sheets}
+    on = {item.sheet: of_part[item.id] for item in layout.placements}
+    return tuple(replace(sheet, material=on[sheet.id].completed(of_stock[sheet.stock])) for sheet in layout.sheets)
 
 
 def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:

@@ -1,6 +1,6 @@
 """From parts and stock to what the search works on: classes of equal outlines, kinds and frames."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +10,7 @@ from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
 from isomould.nesting.bound import Room, bound_stock, fits, room_inside
 from isomould.nesting.cover import PLENTY, Rack
-from isomould.nesting.layout import Id, Part
+from isomould.nesting.layout import Grain, Id, Part
 from isomould.nesting.linked import measure_links
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away, stand
@@ -34,6 +34,7 @@ class PartClass:
 
     polygon: shapely.Polygon
     outline: Floats
+    grain: Grain | None
     pieces: tuple[tuple[Id, str | None], ...]
 
 
@@ -51,10 +52,10 @@ class Case:
 
 
 def sort_classes(parts: Sequence[Part]) -> tuple[PartClass, ...]:
-    """Join the parts with equal outlines and holes, in the order of their first."""
-    groups = dict[tuple[bytes, ...], list[Part]]()
+    """Join the parts with equal outlines, holes and grain, in the order of their first."""
+    groups = dict[tuple[Grain | None, tuple[bytes, ...]], list[Part]]()
     for part in parts:
-        groups.setdefault(_form(part), []).append(part)
+        groups.setdefault((part.grain, _form(part)), []).append(part)
     return tuple(_part_class(group) for group in groups.values())
 
 
@@ -66,7 +67,7 @@ def _form(part: Part) -> tuple[bytes, ...]:
 
 def _part_class(group: list[Part]) -> PartClass:
     pieces = tuple((part.id, location) for part in group for location in locations(part.locations, part.quantity))
-    return PartClass(group[0].polygon, group[0].outline, pieces)
+    return PartClass(group[0].polygon, group[0].outline, group[0].grain, pieces)
 
 
 def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
@@ -95,7 +96,7 @@ def make_blank_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
     height = max(int(np.ptp(micrometres(kind.outline)[:, 1])) for kind in classes)
     room = Room(blank_length(stock), height)
     grid = make_grid(room.width, stock)
-    kinds = classes_by_kind(classes, (0,), grid)
+    kinds = classes_by_kind(classes, lambda _: (0,), grid)
     frame = _frame(Case(0, False, room.width, room.height, 1.0, 1.0), kinds, grid)
     return Rack((frame,), np.array([PLENTY]), _areas(classes, [room]))
 
@@ -132,9 +133,22 @@ def _frames(
     lying = Case(index, False, room.width, room.height, cost, share)
     upright = Case(index, True, room.height, room.width, cost, share, zones=grid.flips)
     over = grid if grid.flips else replace(grid, turns_over=False)
-    along = classes_by_kind(classes, (0, 90) if quarters else (0,), grid)
-    across = along if quarters else classes_by_kind(classes, (90,), over)
+    free = quarters and not any(kind.grain for kind in classes)
+    along = classes_by_kind(classes, lambda kind: _turns_lying(kind, quarters=quarters), grid)
+    across = along if free else classes_by_kind(classes, lambda kind: _turns_upright(kind, quarters=quarters), over)
     return [_frame(lying, along, grid), _frame(upright, across, grid)]
+
+
+def _turns_lying(kind: PartClass, *, quarters: bool) -> tuple[int, ...]:
+    """Give how a class may stand in a strip along the width, which is where the grain of sheets runs."""
+    if kind.grain == "across":
+        return (90,)
+    return (0,) if kind.grain == "along" or not quarters else (0, 90)
+
+
+def _turns_upright(kind: PartClass, *, quarters: bool) -> tuple[int, ...]:
+    """Give how a class may stand in a strip along the height, which is turned by a quarter when it is cut."""
+    return tuple((turn + 90) % 180 for turn in _turns_lying(kind, quarters=quarters))
 
 
 def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> float:
@@ -143,9 +157,11 @@ def _cost(sheet: SheetStock, sheets: Sequence[SheetStock], share: float) -> floa
     return sheet.price / dearest or FREE * share if dearest else share
 
 
-def classes_by_kind(classes: Sequence[PartClass], turns: tuple[int, ...], grid: Grid) -> tuple[Kind, ...]:
-    """Stand every class on the strip in the given rotations and sort the shapes into kinds."""
-    shapes = [(index, stand(kind.outline, turn)) for index, kind in enumerate(classes) for turn in turns]
+def classes_by_kind(
+    classes: Sequence[PartClass], turns: Callable[[PartClass], tuple[int, ...]], grid: Grid
+) -> tuple[Kind, ...]:
+    """Stand every class on the strip in its rotations and sort the shapes into kinds."""
+    shapes = [(index, stand(kind.outline, turn)) for index, kind in enumerate(classes) for turn in turns(kind)]
     return sort_kinds(shapes, [len(kind.pieces) for kind in classes], grid)
 
 
@@ -194,11 +210,15 @@ def piece_counts(classes: Sequence[PartClass]) -> Ints:
 def refuse_oversize(parts: Sequence[Part], stock: StockSettings) -> None:
     """Refuse a part that fits no sheet in any rotation that is allowed there, with the size that it needs."""
     for part in parts:
-        if not any(fits(part.outline, sheet, stock) for sheet in stock.sheets):
+        if not any(fits(part.outline, sheet, stock, part.grain) for sheet in stock.sheets):
             width, height = box(part.outline)
             found = f"needs {width + 2 * stock.trim:g} x {height + 2 * stock.trim:g} mm with the trim"
             limit = " or ".join(f"{sheet.width:g} x {sheet.height:g} mm ({sheet.name})" for sheet in stock.sheets)
-            raise Refused("E-NEST-01", f"part {part.id}", found, limit, "Add a larger sheet or divide the part.")
+            way_out = "Add a larger sheet or divide the part."
+            if part.grain:
+                found += f", its grain {part.grain} the first of them and that of sheets along their width"
+                way_out = "Add a larger sheet, or write one whose grain runs the other way as HEIGHTxWIDTH."
+            raise Refused("E-NEST-01", f"part {part.id}", found, limit, way_out)
 
 
 def box(outline: Floats) -> tuple[float, float]:

@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator
 
-from isomould.settings import Name, Settings
+from isomould.nesting.layout import Grain
+from isomould.nesting.material import Material
+from isomould.settings import Name, Settings, Text
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
 
 Turning = Literal["none", "half", "quarter"]
@@ -33,7 +35,10 @@ Quantity = Annotated[Count, AfterValidator(_at_least_one)]
 
 
 class SheetStock(Settings):
-    """A stock sheet. `quantity` None is unlimited; a sheet with a grain takes no quarter turns."""
+    """A stock sheet. `quantity` None is unlimited; a sheet with a grain takes no quarter turns.
+
+    The grain runs along the width. A sheet that says its material, grade or thickness holds parts of those only.
+    """
 
     name: StockName
     width: PositiveLength
@@ -41,15 +46,24 @@ class SheetStock(Settings):
     price: NonNegativeNumber = 0.0
     quantity: Quantity | None = None
     grain: Flag = False
+    material: Text = ""
+    grade: Text = ""
+    thickness: PositiveLength | None = None
+
+    @property
+    def made_of(self) -> Material:
+        """What is said of its material."""
+        return Material(self.material, self.grade, self.thickness)
 
 
 class BarStock(Settings):
-    """A stock bar of one section. `quantity` None is unlimited."""
+    """A stock bar of one section. `quantity` None is unlimited; one that says its grade is for members of that."""
 
     section: StockName
     length: PositiveLength
     price: NonNegativeNumber = 0.0
     quantity: Quantity | None = None
+    grade: Text = ""
 
 
 class StockSettings(Settings):
@@ -99,15 +113,22 @@ class StockSettings(Settings):
 
     def _twin_bars(self) -> Iterator[str]:
         """Name the bars of one section that are as long as another."""
-        known = Counter((bar.section, bar.length) for bar in self.bars)
-        for section, length in (bar for bar, count in known.items() if count > 1):
+        known = Counter((bar.section, bar.length, bar.grade) for bar in self.bars)
+        for section, length, _ in (bar for bar, count in known.items() if count > 1):
             yield (
                 f"two stock bars of {section} are {length:g} mm long; one entry for every length and section "
                 "(a remnant as long as a new bar may be a millimetre shorter)"
             )
 
 
-def allowed_rotations_deg(stock: StockSettings, sheet: SheetStock | None) -> tuple[int, ...]:
-    """Give the rotations that parts may take on a sheet (None: on a blank to order), ascending."""
-    allowed = ROTATIONS_DEG[stock.turning]
-    return tuple(turn for turn in allowed if turn % 180 == 0) if sheet is not None and sheet.grain else allowed
+def allowed_rotations_deg(
+    stock: StockSettings, sheet: SheetStock | None, grain: Grain | None = None
+) -> tuple[int, ...]:
+    """Give the rotations that a part may take on a sheet (None: on a blank to order), ascending.
+
+    A grain across the part's x axis lies along the sheet's after a quarter turn, to either side.
+    """
+    if grain == "across":
+        return (90, 270)
+    straight = grain == "along" or (sheet is not None and sheet.grain)
+    return tuple(turn for turn in ROTATIONS_DEG[stock.turning] if not straight or turn % 180 == 0)

@@ -140,6 +140,7 @@ class Project(Settings):
         yield from self._classes_and_gaps()
         yield from self._bases_without_supports()
         yield from self._coated_panels_turned()
+        yield from self._stock_of_several_materials()
         yield from self.kind_and_division()
 
     def _classes_and_gaps(self) -> Iterator[str]:
@@ -161,6 +162,15 @@ class Project(Settings):
         coating = self.panels.coating
         for field in (field for field, asked in turned.items() if asked and coating != "none"):
             yield f"panels.coating = {coating!r} and {field}: a coated panel has only one way up"
+
+    def _stock_of_several_materials(self) -> Iterator[str]:
+        """Say where the stock leaves open what panels or members of a section are cut from: a project has one."""
+        stock = self.stock or StockSettings()
+        if len({sheet.made_of.key for sheet in stock.sheets}) > 1:
+            yield "stock.sheets are of several materials, grades or thicknesses: the panels of a project are of one"
+        grades = {(bar.section, bar.grade) for bar in stock.bars}
+        if len(grades) > len({section for section, _ in grades}):
+            yield "stock.bars are of several grades: the members of a section in a project are of one"
 
     def kind_and_division(self) -> Iterator[str]:
         """Say which divisions the kind of surface does not have."""

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from isomould.verify.certificate import Certificate
-from isomould.verify.checks import nested, nested_bars, nesting, scoring, sheet_marks
+from isomould.verify.checks import nested, nested_bars, nesting, scoring, sheet_marks, sheet_materials
 from isomould.verify.checks.nesting import LENGTH
 from isomould.verify.checks.saw_list import paper_faults
 from isomould.verify.delivery import Delivery
@@ -23,7 +23,13 @@ _SHARED = {"V31b", "V32", "V33", "V33b", "V35b", "V35c"}
 
 RULES = tuple(
     sorted(
-        (*nested.RULES, *sheet_marks.RULES, *scoring.RULES, *(rule for rule in nesting.RULES if rule.id in _SHARED)),
+        (
+            *nested.RULES,
+            *sheet_materials.RULES,
+            *sheet_marks.RULES,
+            *scoring.RULES,
+            *(rule for rule in nesting.RULES if rule.id in _SHARED),
+        ),
         key=order,
     )
 )

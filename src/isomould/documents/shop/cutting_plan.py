@@ -139,12 +139,15 @@ def percent_text(value: float) -> str:
 def _tables(plan: _Plan) -> list[list[tuple[str, ...]]]:
     priced = any(float(row["price"] or 0) for row in plan.rows)
     columns = (*_LISTED, *(["price"] if priced else []))
-    rows = [tuple(drawable(row[name]) for name in columns) for row in plan.rows]
-    tables = [[tuple(plan.headers[name] for name in columns), *rows]]
+    materials = [str(sheet.material) for sheet in plan.layout.sheets]
+    said = [(drawable(material),) if any(materials) else () for material in materials]
+    heading = (*(plan.headers[name] for name in columns), *(["Material"] if any(materials) else []))
+    shown = [tuple(drawable(row[name]) for name in columns) for row in plan.rows]
+    tables = [[heading, *((*row, *material) for row, material in zip(shown, said, strict=True))]]
     left = Counter((str(one.id), one.reason, one.needs) for one in plan.layout.unplaced)
     lost = [(drawable(mark), str(n), drawable(why), *map(length_text, needs)) for (mark, why, needs), n in left.items()]
-    heading = ("No place for", "Pieces", "Reason", "Needs width (mm)", "Needs height (mm)")
-    return [*tables, *([[heading, *lost]] if lost else [])]
+    lost_heading = ("No place for", "Pieces", "Reason", "Needs width (mm)", "Needs height (mm)")
+    return [*tables, *([[lost_heading, *lost]] if lost else [])]
 
 
 # --- the page of a sheet
@@ -158,6 +161,8 @@ def _sheet(plan: _Plan, number: int) -> Iterator[Drawn]:
     row = {**row, "part_area_m2": format_number(float(row["part_area_m2"]), 4)}
     data = [(plan.headers[name], drawable(row[name])) for name in _SHOWN if row[name]]
     data.insert(2, ("Size (mm)", f"{length_text(sheet.width)} x {length_text(sheet.height)}"))
+    if str(sheet.material):
+        data.insert(3, ("Material", drawable(str(sheet.material))))
     parts = _part_rows(placements)
     beside = [grid_size(data)[0], grid_size(parts, SMALLEST)[0]]
     column = right - max(beside)

@@ -9,6 +9,7 @@ import numpy as np
 from isomould.verify.checks.cutting_plan import Row, plan_faults
 from isomould.verify.checks.drawings import drawing_faults
 from isomould.verify.checks.nesting import LENGTH, shortfall
+from isomould.verify.checks.sheet_materials import plan_says
 from isomould.verify.delivery import Delivery
 from isomould.verify.planar import loop_distance, quarter_turned, signed_area
 from isomould.verify.read.dxf import Drawing, Outline, one_outline, outlines_on
@@ -107,7 +108,7 @@ def machine_files(delivery: Delivery) -> Measured:
 
 def planned(delivery: Delivery) -> Measured:
     """Every sheet is listed and has a page with what can be measured of it, and its parts in cutting order."""
-    return plan_faults(delivery, list(_rows(delivery)))
+    return worse(plan_faults(delivery, list(_rows(delivery))), plan_says(delivery))
 
 
 def _rows(delivery: Delivery) -> Iterator[Row]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
+from isomould.verify.checks.sheet_materials import material_text
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.dxf import Drawing, outlines_on
 from isomould.verify.read.layout import Placement
@@ -16,16 +17,21 @@ from isomould.verify.rules import Measured, Rule, faults
 def marked(delivery: Delivery) -> Measured:
     """Texts on cut sheets against the layout, part by part; strokes of ENGRAVE that leave their part."""
     problems, count = list[str](), 0
+    materials = {str(sheet["id"]): material_text(sheet) for sheet in delivery.layout.raw["sheets"]}
     for name, drawing in delivery.sheets.items():
         placed = delivery.layout.on(name)
-        problems += [f"{name}: {fault}" for fault in _sheet_faults(drawing, placed)]
+        problems += [f"{name}: {fault}" for fault in _sheet_faults(drawing, placed, materials.get(name, ""))]
         count += len(placed)
     return faults(count, problems)
 
 
-def _sheet_faults(drawing: Drawing, placed: list[Placement]) -> Iterator[str]:
+def _sheet_faults(drawing: Drawing, placed: list[Placement], material: str) -> Iterator[str]:
     shapes = shapely.STRtree([shapely.Polygon(item.points) for item in placed])
-    texts = [entity for entity in drawing.entities if entity.kind == "TEXT" and entity.layer == "INFO"]
+    written = [entity for entity in drawing.entities if entity.kind == "TEXT" and entity.layer == "INFO"]
+    below = [entity.text for entity in written if entity.points[0][1] < 0]
+    if below != ([_plain(material)] if material else []):
+        yield f"its material {material or '(none)'} is written as {', '.join(below) or 'nothing'}"
+    texts = [entity for entity in written if entity.points[0][1] >= 0]
     at = shapely.points(np.array([entity.points[0][:2] for entity in texts]).reshape(-1, 2))
     names: defaultdict[int, list[str]] = defaultdict(list)
     for text, part in shapes.query(at, predicate="intersects").T.tolist():
@@ -44,7 +50,11 @@ def _sheet_faults(drawing: Drawing, placed: list[Placement]) -> Iterator[str]:
 
 def _name(item: Placement) -> str:
     """Give what stands in a part: two signs of per cent would be a code, and a caret is one without a blank."""
-    return re.sub(r"%(?=%)", "% ", f"{item.mark} {item.location}".strip()).replace("^", "^ ")
+    return _plain(f"{item.mark} {item.location}".strip())
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"%(?=%)", "% ", text).replace("^", "^ ")
 
 
 RULES = (Rule("V31c", "cut sheets name every part in its place", 0, "faults", marked),)
