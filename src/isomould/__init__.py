@@ -15,6 +15,7 @@ from isomould.api import (
     schedule,
     verify,
 )
+from isomould.documents.viewing import Seen
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
 from isomould.running import Built, Run
 
@@ -28,6 +29,7 @@ __all__ = [
     "OutputFault",
     "Refused",
     "Run",
+    "Seen",
     "build",
     "check",
     "compare",

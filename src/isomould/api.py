@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from isomould.documents.viewing import Seen, View
 from isomould.errors import Note, Refused
 from isomould.running import Built, Checked, NestFiles, Run
 from isomould.verify import Certificate  # loaded here, before its name is given to the verb
@@ -21,14 +22,12 @@ if TYPE_CHECKING:
 
     from isomould.comparison import Compared
     from isomould.delivery.nested import Targets
-    from isomould.delivery.pictures import View
     from isomould.documents.picture import Picture
     from isomould.intake.inspection import Inspection
     from isomould.intake.member_rows import MemberList
     from isomould.nesting.layout import BarLayout, Layout
     from isomould.nesting.search import Effort, Progress, Search
     from isomould.nesting.stop import Stop
-    from isomould.project.load import LoadedProject
     from isomould.study import Study
     from isomould.units import LengthUnit
 
@@ -339,45 +338,44 @@ def draw(
     view: View = "axonometry",
     changes: Sequence[str] = (),
     shape: str = "main",
+    seen: Seen | None = None,
 ) -> Picture:
-    """Draw a design as SVG.
+    """Draw a design as SVG or PNG.
 
     Parameters
     ----------
     project
         A project file.
     out
-        The picture file, `.svg`; it is written whole or not at all.
+        The picture file, `.svg` or `.png`; it is written whole or not at all.
     view
-        "axonometry", "plan", "elevation" (along +y), "developed" (strips between generatrices) or "curvature" (of
-        the rail, with its points of tangency).
+        "axonometry", "plan", "front" (along +y), "side" (along -x), "section" (the front half way in), "developed"
+        (strips between generatrices) or "curvature" (of the rail, with its points of tangency).
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
     shape
         Which of the project's shapes, by the name of its folder.
+    seen
+        View, style and angles together, in the place of `view`.
     """
+    if Path(out).suffix.lower() not in (".svg", ".png"):
+        limit = "a file that ends in .svg or .png"
+        raise Refused("E-DRAW-FILE", "--out", str(out), limit, "Write --out picture.svg.")
     from isomould.project.load import load_project
 
-    if Path(out).suffix.lower() != ".svg":
-        raise Refused("E-DRAW-FILE", "--out", str(out), "a file that ends in .svg", "Write --out picture.svg.")
-    picture = _picture(load_project(Path(project), changes), view, shape)
+    loaded = load_project(Path(project), changes)
 
-    from isomould.writers.disk import replace_file
-    from isomould.writers.svg import svg_text
-
-    replace_file(Path(out), svg_text(picture).encode())
-    return picture
-
-
-def _picture(loaded: LoadedProject, view: View, shape: str) -> Picture:
     from isomould.delivery.pictures import design_picture
     from isomould.family import make_designs
+    from isomould.writers.picture_file import write_picture
 
     designs = make_designs(loaded)
     if shape not in designs:
         limit = f"one of {', '.join(designs)}"
         raise Refused("E-DRAW-SHAPE", "--shape", repr(shape), limit, "Name a shape of the project.")
-    return design_picture(designs[shape], view)
+    picture = design_picture(designs[shape], seen or Seen(view))
+    write_picture(Path(out), picture)
+    return picture
 
 
 def frames(built: Built) -> dict[str, pd.DataFrame]:

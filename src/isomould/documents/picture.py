@@ -12,13 +12,17 @@ INK, PALE = "#26323d", "#8b98a5"
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A polygon, or a polyline where it is not closed: points (n, 2); colours as #rrggbb, None for none."""
+    """A polygon, or a polyline where it is not closed: points (n, 2); colours as #rrggbb, None for none.
+
+    `opacity` is that of the fill.
+    """
 
     points: Floats
     closed: bool
     fill: str | None = None
     stroke: str | None = INK
     width: float = 0.6
+    opacity: float = 1.0
 
     def __post_init__(self) -> None:
         read_only(self.points)

@@ -1,11 +1,12 @@
 """Pictures of a kit: axonometry, plan and elevation by painter's order, and the developed strips."""
 
-from typing import Literal
-
 import numpy as np
 
 from isomould.arrays import Floats, Ints
+from isomould.documents.camera import Camera, make_camera
 from isomould.documents.picture import Caption, Dot, Frame, Item, Picture, Shape, blend, colour, fit
+from isomould.documents.surroundings import compass
+from isomould.documents.viewing import SpaceView
 from isomould.errors import Refused
 from isomould.form.mesh import Mesh, NodeKind
 from isomould.parts.arms import normalised
@@ -13,32 +14,36 @@ from isomould.parts.kit import Kit
 from isomould.parts.strips import Strip, unroll_strips
 from isomould.ties import FINE, in_order
 
-SpaceView = Literal["axonometry", "plan", "elevation"]
 WIDTH, MARGIN, FOOT = 960.0, 24.0, 30.0
 _INSIDE, _OUTSIDE, _SHADE = "#e9dfc9", "#fbfcfd", "#8fa3b5"
 _LIGHT = np.array([0.35, -0.55, 0.76])
 
-_EYES: dict[SpaceView, tuple[Floats, Floats, Floats]] = {
-    "plan": (np.array([1.0, 0, 0]), np.array([0, 1.0, 0]), np.array([0, 0, 1.0])),
-    "elevation": (np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, -1.0, 0])),
-}
-"""Right, up and towards the eye."""
 
+def space_picture(
+    kit: Kit, name: str, view: SpaceView, camera: Camera | None = None, north_deg: float = 0.0
+) -> Picture:
+    """Give the mesh seen from far away: panels from back to front, nodes coloured by class, axes and north.
 
-def space_picture(kit: Kit, name: str, view: SpaceView) -> Picture:
-    """Give the mesh seen from far away: panels from back to front, nodes coloured by class.
+    Outsides of panels are white, insides sand-coloured.
 
-    Outsides of panels are white, insides sand-coloured; `elevation` looks along +y.
+    Parameters
+    ----------
+    camera
+        That of the view, if None.
+    north_deg
+        Angle of the project's x axis from the site's (east), counter-clockwise.
     """
-    right, up, eye = _EYES[view] if view in _EYES else _oblique(np.radians(-58.0), np.radians(32.0))
-    flat, depth = kit.mesh.nodes @ np.stack([right, up], axis=1), kit.mesh.nodes @ eye
+    camera = camera or make_camera(view)
+    eye = camera.eye
+    flat, depth = camera.flat(kit.mesh.nodes), camera.depth(kit.mesh.nodes)
     frame = fit(flat, WIDTH, MARGIN, FOOT)
     placed = frame.place(flat)
     near = np.maximum.reduceat(depth[kit.mesh.faces], kit.mesh.face_offsets[:-1])
     middle = np.add.reduceat(depth[kit.mesh.faces], kit.mesh.face_offsets[:-1]) / np.diff(kit.mesh.face_offsets)
     items: list[Item] = [*_panels(kit.mesh, placed, eye), *_dots(kit, placed, frame)]
     order = in_order(np.concatenate([middle, _in_front(kit.mesh, depth, near)]))
-    return Picture(f"{name}, {view}", WIDTH, frame.height, (*(items[k] for k in order), _caption(kit, name)))
+    axes = compass(camera, (WIDTH - 60.0, FOOT), north_deg)
+    return Picture(f"{name}, {view}", WIDTH, frame.height, (*(items[k] for k in order), _caption(kit, name), *axes))
 
 
 def developed_picture(kit: Kit, name: str) -> Picture:
@@ -59,13 +64,6 @@ def developed_picture(kit: Kit, name: str) -> Picture:
         for quad, number in zip(quads, of.tolist(), strict=True)
     ]
     return Picture(f"{name}, developed strips", WIDTH, frame.height, (*shapes, _caption(kit, name)))
-
-
-def _oblique(turn: float, rise: float) -> tuple[Floats, Floats, Floats]:
-    """Give right, up and towards the eye, which stands at an azimuth and an elevation (rad)."""
-    eye = np.array([np.cos(turn) * np.cos(rise), np.sin(turn) * np.cos(rise), np.sin(rise)])
-    right = np.array([-np.sin(turn), np.cos(turn), 0.0])
-    return right, np.cross(eye, right), eye
 
 
 def _panels(mesh: Mesh, placed: Floats, eye: Floats) -> list[Shape]:

@@ -29,9 +29,9 @@ def _item(item: Item, height: float) -> str:
 
 def _shape(shape: Shape, height: float) -> str:
     stroke = f' stroke="{shape.stroke}" stroke-width="{_number(shape.width)}"' if shape.stroke else ""
-    return (
-        f'<path d="{_path(shape.points, height)}{"Z" if shape.closed else ""}" fill="{shape.fill or "none"}"{stroke}/>'
-    )
+    clear = f' fill-opacity="{_number(shape.opacity)}"' if shape.opacity < 1 else ""
+    path = f"{_path(shape.points, height)}{'Z' if shape.closed else ''}"
+    return f'<path d="{path}" fill="{shape.fill or "none"}"{clear}{stroke}/>'
 
 
 def _path(points: Floats, height: float) -> str:
