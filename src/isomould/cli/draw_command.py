@@ -8,6 +8,7 @@ import click
 
 import isomould
 from isomould.cli.options import CHANGES, PROJECT
+from isomould.documents.viewing import Style
 
 _VIEW = click.Choice(["axonometry", "plan", "front", "elevation", "side", "section", "developed", "curvature"])
 _STYLE = click.Choice(["classes", "building"])
@@ -22,7 +23,7 @@ _STYLE = click.Choice(["classes", "building"])
 @click.option("--elevation", "elevation_deg", type=float, help="How high the eye stands, degrees.")
 @CHANGES
 @click.option("--shape", default="main", show_default=True, help="Which of the project's shapes.")
-def draw(project: Path, out: Path, changes: Sequence[str], shape: str, style: str | None, **seen: Any) -> None:
+def draw(project: Path, out: Path, changes: Sequence[str], shape: str, style: Style | None, **seen: Any) -> None:
     """Draw the design; no other files are written."""
     isomould.draw(project, out, changes=changes, shape=shape, seen=isomould.Seen(style=style or "classes", **seen))
     click.echo(f"wrote {out}")

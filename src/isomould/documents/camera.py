@@ -65,6 +65,7 @@ def _camera(*axes: tuple[float, float, float]) -> Camera:
 
 
 def _oblique(turn: float, rise: float) -> Camera:
-    eye = np.round([np.cos(turn) * np.cos(rise), np.sin(turn) * np.cos(rise), np.sin(rise)], 12)
+    eye = np.array([np.cos(turn) * np.cos(rise), np.sin(turn) * np.cos(rise), np.sin(rise)], dtype=np.float64)
+    eye = eye.round(12)  # straight down is straight down
     right = np.array([-np.sin(turn), np.cos(turn), 0.0])
     return Camera(right, np.cross(eye, right), eye)

@@ -23,7 +23,9 @@ from isomould.writers.svg import svg_text
 
 _PLAIN = "#e3e8ec"
 
-_CAMERA = {"eye": {"x": 0.7, "y": -1.05, "z": 0.65}}
+_EYE = {"x": 0.95, "y": -1.45, "z": 0.86}
+_CAMERA = {"eye": _EYE, "center": {"x": 0, "y": 0, "z": -0.08}}
+"""So far away that the whole building is in the frame, whatever its proportions."""
 
 _CONFIG = {"displaylogo": False, "responsive": True}
 
@@ -43,7 +45,8 @@ tr:nth-child(even) { background: #f5f7f9; } td.number { text-align: right; font-
 .banner { padding: .5rem .8rem; border-left: .4rem solid #14692f; background: #edf6ef; }
 .banner.bad { border-color: #b3261e; background: #fbeceb; }
 .hash { font: 12px ui-monospace, monospace; color: #6b7780; word-break: break-all; }
-.plot { height: 24rem; } #scene-room { height: 40rem; } svg { max-width: 100%; height: auto; }
+.plot { height: 24rem; } .plot > div { height: 100%; } #scene-room { height: 40rem; }
+svg { max-width: 100%; height: auto; }
 @media print { nav, #model { display: none; } }
 </style>
 <script>$library</script>
@@ -146,9 +149,9 @@ def _file(row: FileRow) -> str:
 
 
 def _figure(key: str, figure: go.Figure) -> str:
-    return figure.to_html(
-        full_html=False, include_plotlyjs=False, div_id=key, config=_CONFIG, default_height="100%"
-    ).replace("<div>", f'<div class="plot" id="{key}-room">', 1)
+    """Put a figure into a room of its own, which gives it its size, whatever plotly writes around it."""
+    drawn = figure.to_html(full_html=False, include_plotlyjs=False, div_id=key, config=_CONFIG, default_height="100%")
+    return f'<div class="plot" id="{key}-room">{drawn}</div>'
 
 
 def scene_figure(scene: Scene) -> go.Figure:
