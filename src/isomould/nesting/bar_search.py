@@ -29,14 +29,8 @@ GRIDS: dict[Effort, tuple[int, ...]] = {"quick": (1,), "normal": (1, 4, 16), "be
 AGAIN = 6
 """Rounds of pricing after each step of the dive."""
 
-SHARE = 0.02
-"""Part of the bars still to come that a step of the dive fixes, if none is used whole."""
-
-FEW = 45.0
-"""Bars still to come of which whole numbers are chosen at once; of half as many again, and so on."""
-
-DIVES: dict[Effort, int] = {"quick": 1, "normal": 3, "best": 10}
-"""Dives that are tried where nothing meets the bound."""
+DIVES: dict[Effort, int] = {"quick": 1, "normal": 4, "best": 11}
+"""Dives that are tried where nothing meets the bound: a hasty one, then patient ones."""
 
 LEAST = 0.7
 """Of its use, what a bar is taken for at least where a dive goes by chance."""
@@ -49,6 +43,32 @@ SQUEEZED = 2_000
 
 FEWER = 1e-4
 """What a bar costs beside its price, in costs of the dearest."""
+
+
+@dataclass(frozen=True)
+class _Manner:
+    """How a dive goes.
+
+    Attributes
+    ----------
+    share
+        Part of the bars still to come that a step fixes, if none is used whole.
+    few
+        Bars still to come of which whole numbers are chosen at once; of half as many again, and so on.
+    chance
+        Lets a dive fix others of the bars that are used much; None fixes those that are used most.
+    """
+
+    share: float
+    few: float
+    chance: np.random.Generator | None = None
+
+
+def _manner(number: int) -> _Manner:
+    """Give the manner of a dive by its number: most cuttings need no more than the hasty first one."""
+    if number == 0:
+        return _Manner(share=0.1, few=15.0)
+    return _Manner(share=0.02, few=45.0, chance=np.random.default_rng(number) if number > 1 else None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,8 +140,7 @@ def _by_columns(
     counting, ladder = _counting(programme), partial(ladders, fineness=fineness)
     for number in range(DIVES[case.task.effort]):
         if not case.is_done(patterns, bound):
-            chance = np.random.default_rng(number) if number else None
-            patterns = _dive(case, counting, ladder, (patterns, bound), chance)
+            patterns = _dive(case, counting, ladder, (patterns, bound), _manner(number))
     if not case.is_done(patterns, bound):
         patterns = case.best(patterns, choose_best(rack, case.need))
     return _squeezed(case, patterns, bound), bound
@@ -181,15 +200,12 @@ def _dive(
     programme: Programme,
     ladder: Callable[[Ints], Ladder],
     known: tuple[list[Pattern], BarBound],
-    chance: np.random.Generator | None,
+    manner: _Manner,
 ) -> list[Pattern]:
-    """Fix bars step by step, fill the rest each time, and end when nothing better can come.
-
-    Another dive goes another way: by `chance` it fixes others of the bars that are used much.
-    """
+    """Fix bars step by step, fill the rest each time, and end when nothing better can come."""
     rack, left = programme.rack, case.need
     best, bound = known
-    fixed, few = list[Pattern](), FEW
+    fixed, few = list[Pattern](), manner.few
     while left.counts.any() and not case.is_done(best, bound):
         shares = generate(programme, left, AGAIN if fixed else ROUNDS, ladder(left.counts))
         if case.serves(best) and _to_come(programme, shares, fixed) >= merit(rack, best)[1:]:
@@ -197,7 +213,7 @@ def _dive(
         if (to_come := float(shares.uses.sum())) <= few:
             few = to_come / 2
             best = case.best(best, fixed + choose_whole(programme, left, shares))
-        new = _fix(programme, shares, left, chance)
+        new = _fix(programme, shares, left, manner)
         if not new:
             break
         fixed, left = fixed + new, less(left, new)
@@ -228,15 +244,17 @@ def _to_come(programme: Programme, shares: Shares, fixed: list[Pattern]) -> tupl
     return cost, bars_in(fixed) + whole(float(shares.uses.sum()))
 
 
-def _fix(programme: Programme, shares: Shares, left: Need, chance: np.random.Generator | None) -> list[Pattern]:
+def _fix(programme: Programme, shares: Shares, left: Need, manner: _Manner) -> list[Pattern]:
     """Give the bars that are used whole, or else those that are used most; by chance, not all of them."""
-    uses = shares.uses if chance is None else shares.uses * chance.uniform(LEAST, 1.0, len(shares.uses))
+    uses = shares.uses
+    if manner.chance is not None:
+        uses = uses * manner.chance.uniform(LEAST, 1.0, len(uses))
     entire = np.floor(uses + SLIGHT).astype(np.int64)
     if entire.any():
         chosen = [(int(k), int(entire[k])) for k in np.flatnonzero(entire)]
         return _as_far_as_wanted(programme, chosen, left)
     most = in_order(-uses, FINE)[: np.count_nonzero(uses > SLIGHT)]
-    enough = max(1, round(SHARE * float(uses.sum())))
+    enough = max(1, round(manner.share * float(uses.sum())))
     return _as_far_as_wanted(programme, [(int(k), 1) for k in most], left)[:enough]
 
 
