@@ -6,9 +6,11 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from isomould.curves.construction import build_curve
+from isomould.arrays import Floats, read_only
 from isomould.curves.curve import PlanarCurve
-from isomould.curves.plane import build_plane
+from isomould.curves.local_curves import build_local_curve
+from isomould.curves.origins import REMOTE
+from isomould.curves.plane import Plane, build_plane
 from isomould.curves.spatial_settings import build_spatial_curve
 from isomould.errors import Attempt, Gathering, Note, Refused
 from isomould.form.assemble import (
@@ -32,6 +34,7 @@ from isomould.measure.trim_cost import trim_cost_notes
 from isomould.parts.kit import Kit, KitSettings, TriedKit, try_kit
 from isomould.parts.settings import CongruenceSettings
 from isomould.project.schema import GeneratrixTable, Project, RailTable
+from isomould.project.site import on_site, site_notes, site_of
 
 T = TypeVar("T")
 
@@ -80,6 +83,8 @@ class Sketch:
     form: Form
     mesh: Mesh
     notes: tuple[Note, ...]
+    project: Project
+    """Its frame near the rail."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,15 +106,15 @@ class TriedDesign:
             The first that ended a stage.
         """
         drawn, kit, layers = self.sketch.value, self.parts.value.kit, self.layers.value
-        cost = _trim_cost(self.project, drawn.form, kit)
+        cost = _trim_cost(drawn.project, drawn.form, kit)
         notes = (*drawn.notes, *kit.notes, *cost, *(layers.notes if layers else ()))
-        return Design(self.project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
+        return Design(drawn.project, drawn.rail, drawn.generatrix, drawn.form, kit, notes, layers)
 
 
 def try_design(project: Project, folder: Path, faults: Gathering) -> TriedDesign:
     """Compute a design as far as it can be made; `faults` gathers what ends the rest."""
     drawn = try_sketch(project, folder, faults)
-    parts = faults.run(lambda: try_kit(drawn.value.mesh, kit_settings(project), faults))
+    parts = faults.run(lambda: try_kit(drawn.value.mesh, kit_settings(drawn.value.project), faults))
     layers = faults.run(lambda: _double_layer(drawn.value.form, project))
     return TriedDesign(project, drawn, parts, layers)
 
@@ -133,35 +138,40 @@ def try_sketch(project: Project, folder: Path, faults: Gathering) -> Attempt[Ske
         _try_divisions(project, rail, generatrix, faults)
     requests, depth = requests_of(project), project.members.section.depth
     form = faults.run(lambda: make_form(rail.value.curve, generatrix.value.curve, requests, project.surface, depth))
+    placed = faults.run(lambda: on_site(project, rail.value.site))
     trimmed = faults.run(
-        lambda: trim_mesh(make_mesh(form.value.surface), project.surface, project.tolerances.min_member)
+        lambda: trim_mesh(make_mesh(form.value.surface), placed.value.surface, project.tolerances.min_member)
     )
     slivers = faults.run(lambda: weigh_panels(trimmed.value[0]))
     faults.run(lambda: refuse_clashes(trimmed.value[0], depth))
-    return faults.run(lambda: _sketched(rail.value, generatrix.value, form.value, trimmed.value, slivers.value))
+    mesh = faults.run(lambda: _Made(*trimmed.value, slivers.value))
+    return faults.run(lambda: _sketched(placed.value, rail.value, generatrix.value, form.value, mesh.value))
 
 
 class _Drawn(NamedTuple, Generic[T]):
-    """A curve in its place, and what should be known about it."""
+    """A curve in its place, what should be known about it, and the origin (3,) mm that it is measured from."""
 
     curve: T
     notes: tuple[Note, ...]
+    site: Floats
+
+
+class _Made(NamedTuple):
+    """A trimmed mesh, and what should be known about the trimming and the panels."""
+
+    mesh: Mesh
+    trim_notes: tuple[Note, ...]
+    panel_notes: tuple[Note, ...]
 
 
 _Rail = _Drawn[RailInPlane | RailInSpace]
 _Generatrix = _Drawn[PlanarCurve]
 
 
-def _sketched(
-    rail: _Rail,
-    generatrix: _Generatrix,
-    form: Form,
-    trimmed: tuple[Mesh, tuple[Note, ...]],
-    panel_notes: tuple[Note, ...],
-) -> Sketch:
-    mesh, trim_notes = trimmed
-    notes = (*rail.notes, *generatrix.notes, *form.notes, *trim_notes, *panel_notes)
-    return Sketch(rail.curve, generatrix.curve, form, mesh, notes)
+def _sketched(project: Project, rail: _Rail, generatrix: _Generatrix, form: Form, made: _Made) -> Sketch:
+    placed = site_notes(project, rail.site)
+    notes = (*rail.notes, *placed, *generatrix.notes, *form.notes, *made.trim_notes, *made.panel_notes)
+    return Sketch(rail.curve, generatrix.curve, form, made.mesh, notes, project)
 
 
 def try_curves(project: Project, folder: Path, faults: Gathering) -> None:
@@ -215,20 +225,36 @@ def requests_of(project: Project) -> tuple[Request, Request]:
 
 def _rail(table: RailTable, request: Request, folder: Path) -> _Rail:
     if table.up is not None:
-        spatial, notes = build_spatial_curve(table.curve, folder, "rail.curve")
-        return _Drawn(RailInSpace(spatial, np.array(table.up)), notes)
+        spatial = build_spatial_curve(table.curve, folder, "rail.curve")
+        return _Drawn(RailInSpace(spatial.curve, np.array(table.up)), spatial.notes, spatial.origin)
     plane = build_plane(table.plane, "rail.plane")
     fitted, fit_notes = fit_curve(table.curve, request)
-    curve, notes = build_curve(fitted, folder, plane, "rail.curve")
-    drawn = RailInPlane(orient_rail(curve, table.outside or (0.0, 0.0)), plane, table.ends)
-    return _Drawn(drawn, (*notes, *fit_notes))
+    local = build_local_curve(fitted, folder, plane, "rail.curve")
+    # the plane's origin goes to the curve's, and then the project's origin near both
+    place = plane.origin + local.origin @ np.stack([plane.x_axis, plane.y_axis])
+    site = site_of(place)
+    near = Plane(read_only(place - site), plane.x_axis, plane.y_axis)
+    drawn = RailInPlane(orient_rail(local.curve, table.outside or (0.0, 0.0)), near, table.ends)
+    return _Drawn(drawn, (*local.notes, *fit_notes), site)
 
 
 def _generatrix(table: GeneratrixTable, request: Request, folder: Path) -> _Generatrix:
     fitted, fit_notes = fit_curve(table.curve, request)
-    curve, notes = build_curve(fitted, folder, None, "generatrix.curve")
-    placed = place_generatrix(curve, table.origin, table.axes, table.outside)
-    return _Drawn(placed, (*notes, *fit_notes))
+    local = build_local_curve(fitted, folder, None, "generatrix.curve")
+    drawn_at = local.origin if table.axes == "dz" else local.origin[::-1]
+    at = np.array(table.origin) + drawn_at
+    _refuse_remote(at, -drawn_at)
+    placed = place_generatrix(local.curve, (float(at[0]), float(at[1])), table.axes, table.outside)
+    return _Drawn(placed, (*local.notes, *fit_notes), np.zeros(3))
+
+
+def _refuse_remote(at: Floats, wanted: Floats) -> None:
+    """Refuse a generatrix whose place beside the rail nobody said: it was drawn somewhere on a map."""
+    if np.abs(at).max() > REMOTE:
+        found = f"a generatrix drawn {np.abs(at).max() / 1e6:.0f} km from the rail"
+        corner = ", ".join(f'"{value / 1000:.0f} m"' for value in wanted)
+        way_out = f"Set generatrix.origin, such as [{corner}] for the corner of what was drawn, or draw it near 0, 0."
+        raise Refused("E-GENERATRIX-REMOTE", "generatrix.origin", found, "10 km", way_out)
 
 
 def division_request(field: str, project: Project) -> Request:

@@ -85,7 +85,7 @@ def read(tmp_path):
         given = {"layer": "RAIL", **table}
         settings = SETTINGS.validate_python({"kind": "rhino", "file": "rail.3dm", **given})
         if space:
-            return build_spatial_curve(settings, tmp_path, "rail.curve")[0]
+            return build_spatial_curve(settings, tmp_path, "rail.curve").curve
         return build_curve(settings, tmp_path, plane, "rail.curve")[0]
 
     return reading

@@ -16,7 +16,7 @@ POINTS = [[0, 0, 0], [3, 1, 0.5], [6, 1.5, 2], [9, -1, 2.5], [13, -2, 1]]
 
 
 def build(folder=None, **table):
-    return build_spatial_curve(TypeAdapter(CurveSettings).validate_python(table), folder, "rail.curve")[0]
+    return build_spatial_curve(TypeAdapter(CurveSettings).validate_python(table), folder, "rail.curve").curve
 
 
 def dense(curve, count=60):

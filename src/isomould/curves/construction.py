@@ -57,13 +57,15 @@ def build_curve(
     OutputFault
         If a file cannot be read.
     """
-    refuse_spatial(getattr(settings, "points", ()), field)
-    draft = _draft(settings, base_dir, plane, field)
+    draft = draft_curve(settings, base_dir, plane, field)
     curve, notes = join_pieces(draft.pieces, draft.closed, field)
-    return curve, (*draft.notes, *notes)
+    placed = curve.mapped(np.eye(2), np.array(draft.origin)) if any(draft.origin) else curve
+    return placed, (*draft.notes, *notes)
 
 
-def _draft(settings: CurveSettings, base_dir: Path, plane: Plane | None, field: str) -> Draft:
+def draft_curve(settings: CurveSettings, base_dir: Path, plane: Plane | None, field: str) -> Draft:
+    """Give the pieces that a `curve` table stands for, measured from an origin near them; `build_curve` joins them."""
+    refuse_spatial(getattr(settings, "points", ()), field)
     match settings:
         case ArcSettings() | CircleSettings() | EllipseSettings():
             return _round(settings, field)

@@ -46,8 +46,8 @@ def read_drawn(settings: DrawnSettings, base_dir: Path, plane: Plane | None, fie
     ground, offset = _seen_from(plane, origin) if settings.drawn == "world" and plane else (None, origin[:2])
     strokes, flattened = laid_flat(seen_from(drawing.traced, origin), ground, field, join)
     chain, moved = the_one_chain(strokes, join, field)
-    pieces = tuple(piece.mapped(np.eye(2), offset) for piece in chain.pieces) if offset.any() else chain.pieces
-    return Draft(pieces, chain.closed, (*drawing.notes, *flattened, *moved))
+    away = (float(offset[0]), float(offset[1]))
+    return Draft(chain.pieces, chain.closed, (*drawing.notes, *flattened, *moved), away)
 
 
 def trace_drawn(settings: DrawnSettings, base_dir: Path, field: str) -> LayerDrawing:
@@ -82,7 +82,9 @@ def the_one_chain(strokes: list[Stroke[P]], join: float, field: str) -> tuple[Ch
 
 
 def _seen_from(plane: Plane, origin: Floats) -> tuple[Plane, Floats]:
-    """Give the plane as seen from an origin (3,), near it, and where the plane's own origin is from there, turned."""
+    """Give the plane as seen from an origin (3,), its own moved near it, and by how much in its coordinates."""
+    if not origin.any():
+        return plane, np.zeros(2)
     axes = np.column_stack([plane.x_axis, plane.y_axis])
     offset = (origin - plane.origin) @ axes
     return Plane(plane.origin - origin + axes @ offset, plane.x_axis, plane.y_axis), offset

@@ -20,6 +20,8 @@ class Draft(NamedTuple):
     pieces: tuple[Piece, ...]
     closed: bool
     notes: tuple[Note, ...] = ()
+    origin: tuple[float, float] = (0.0, 0.0)
+    """What the pieces are measured from, mm: (0, 0) unless they were drawn far from it."""
 
 
 def ellipse(centre: Floats, major: Floats, minor: Floats, range_: tuple[float, float]) -> Ellipse:

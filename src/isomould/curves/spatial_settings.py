@@ -1,5 +1,6 @@
 """The curves in space that a `curve = {kind = …}` table of the rail may stand for."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from isomould.curves.construction import bspline_segments, points_of, spline_seg
 from isomould.curves.drawn import the_one_chain, trace_drawn
 from isomould.curves.drawn_settings import DrawnSettings, DxfSettings, RhinoSettings
 from isomould.curves.joining import join_tolerance
-from isomould.curves.origins import seen_from
+from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.pieces import Line
 from isomould.curves.points import are_spatial
 from isomould.curves.settings import (
@@ -25,7 +26,16 @@ from isomould.curves.spatial import Shape, Traced, refuse_wild, shapes_of
 from isomould.errors import Note, Refused
 
 
-def build_spatial_curve(settings: CurveSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
+@dataclass(frozen=True, eq=False)
+class LocalSpatialCurve:
+    """A curve in space and the origin (3,) mm that its coordinates are measured from."""
+
+    curve: SpatialCurve
+    origin: Floats
+    notes: tuple[Note, ...]
+
+
+def build_spatial_curve(settings: CurveSettings, base_dir: Path, field: str) -> LocalSpatialCurve:
     """Build the curve in space of a `curve` table: polyline, spline, bspline, or drawn in the world.
 
     Raises
@@ -38,9 +48,12 @@ def build_spatial_curve(settings: CurveSettings, base_dir: Path, field: str) -> 
     if isinstance(settings, DxfSettings | RhinoSettings):
         return _drawn(settings, base_dir, field)
     shapes, closed, notes = _shapes(settings, field)
-    refuse_wild([Traced(settings.kind, shapes, closed)], field)
-    curve, more = join_in_space(tuple(piece_in_space(shape) for shape in shapes), closed, field)
-    return curve, (*notes, *more)
+    traced = [Traced(settings.kind, shapes, closed)]
+    refuse_wild(traced, field)
+    origin = origin_of(traced)
+    local = [shape for one in seen_from(traced, origin) for shape in one.shapes]
+    curve, more = join_in_space(tuple(piece_in_space(shape) for shape in local), closed, field)
+    return LocalSpatialCurve(curve, origin, (*notes, *more))
 
 
 def _shapes(settings: CurveSettings, field: str) -> tuple[list[Shape], bool, tuple[Note, ...]]:
@@ -65,17 +78,18 @@ def _lines(points: Floats, closed: bool) -> list[Shape]:
     return [Shape(Line, path[k : k + 2]) for k in range(len(path) - 1)]
 
 
-def _drawn(settings: DrawnSettings, base_dir: Path, field: str) -> tuple[SpatialCurve, tuple[Note, ...]]:
+def _drawn(settings: DrawnSettings, base_dir: Path, field: str) -> LocalSpatialCurve:
     if settings.drawn != "world":
         _refuse_planar(f"{field}.drawn", f"a curve drawn {settings.drawn}")
     drawing = trace_drawn(settings, base_dir, field)
     refuse_wild(drawing.traced, field)
-    traced = seen_from(drawing.traced, np.zeros(3))
+    origin = origin_of(drawing.traced)
+    traced = seen_from(drawing.traced, origin)
     strokes = [Stroke(one.name, _pieces(one)) for one in traced]
     join = join_tolerance(settings.join, drawing.printed)
     chain, moved = the_one_chain([stroke for stroke in strokes if stroke.pieces], join, field)
     curve, notes = join_in_space(chain.pieces, chain.closed, field)
-    return curve, (*drawing.notes, *moved, *notes)
+    return LocalSpatialCurve(curve, origin, (*drawing.notes, *moved, *notes))
 
 
 def _pieces(one: Traced) -> tuple[SpatialPiece, ...]:
