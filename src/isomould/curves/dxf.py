@@ -11,11 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from ezdxf.lldxf.const import DXFError
 
-from isomould.curves.drawing_units import FoundUnit, refuse_no_unit, unit_of
+from isomould.curves.drawing_units import INSUNITS, FoundUnit, refuse_no_unit, unit_of
 from isomould.curves.dxf_blocks import LAYER_0, Expansion, Shown
 from isomould.curves.dxf_entities import angles_of, coordinates_of, load_entity
 from isomould.curves.dxf_file import DxfFile, Entity, open_dxf
-from isomould.curves.entities import TRACERS, Drawn, is_smoothed, says_closed
+from isomould.curves.dxf_origins import NEAR, Far, far_of
+from isomould.curves.entities import TRACERS, Drawn, is_mesh, is_smoothed, repeats_an_end, says_closed
 from isomould.curves.layer_names import layer_key, quoted
 from isomould.curves.layers import LayerContent, LayerDrawing
 from isomould.curves.printed import lost_in_print
@@ -31,6 +32,8 @@ _FAULTS = (
     RecursionError,
 )  # fmt: skip
 
+_DOUBLED = "an end control point drawn twice is read once, which changes the curve near it: look at it in the report"
+
 _IN_OCS = {"ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"}
 _UPRIGHT = (0.0, 0.0, 1.0)
 
@@ -41,6 +44,8 @@ class _Found(NamedTuple):
     shown: Shown
     entity: Any
     name: str
+    is_near: bool
+    """Whether it is measured from the origin of the layer."""
 
 
 class DxfSource:
@@ -81,10 +86,11 @@ class DxfSource:
             E-DXF-UNITS, -LAYER, -ENTITY or -BLOCK, E-SPLINE-….
         """
         unit = self._known_unit()
-        shown = self._on_layer(layer)
+        far = self._far(layer_key(layer), unit.mm)
+        shown = self._on_layer(layer, far)
         left = [one for one in shown if one.entity.kind in skip]
-        found = [self._interpreted(one) for one in shown if one.entity.kind not in skip]
-        traced = [self._traced(one, unit.mm) for one in found]
+        found = [self._interpreted(one, far) for one in shown if one.entity.kind not in skip]
+        traced = [self._traced(one, unit.mm, far) for one in found]
         printed = self._lost([one.shown.entity for one in found])
         notes = (*self._remarks(found), *self._left_out(left, layer))
         return LayerDrawing(traced, notes, printed * unit.mm)
@@ -140,9 +146,16 @@ class DxfSource:
             fresh = {one.block for block in blocks for one in block.entities if one.block} - found
         return found
 
-    def _on_layer(self, layer: str) -> list[Shown]:
+    def _far(self, key: str, mm: float) -> Far:
+        """Give the origin that a layer is read from; of a polyline its vertices say where it is."""
+        placing = list(self._expansion.placing(key))
+        records = [self._file.lines.record(one.number) for one in placing]
+        vertices = [vertex for one in placing if one.kind == "POLYLINE" for vertex in self._file.following(one.number)]
+        return far_of([*records, *vertices], mm)
+
+    def _on_layer(self, layer: str, far: Far) -> list[Shown]:
         key = layer_key(layer)
-        shown = self._expansion.on_layer(key)
+        shown = self._expansion.on_layer(layer, far)
         if not shown:
             self._refuse_absent(layer)
         inserts = {layer_key(insert.layer) for one in shown for insert in one.inserts}
@@ -172,16 +185,18 @@ class DxfSource:
 
     # --- the entities
 
-    def _interpreted(self, shown: Shown) -> _Found:
+    def _interpreted(self, shown: Shown, far: Far) -> _Found:
         inserts = "".join(f" in {self._file.called(insert)}" for insert in shown.inserts)
         name = f"{self._file.called(shown.entity)}{inserts}"
         if shown.entity.kind not in TRACERS:
             self._refuse_entity(name)
         with _guarded("E-DXF-ENTITY", self._field, name):
-            entity = load_entity(self._file, shown.entity)
+            entity, moved = load_entity(self._file, shown.entity, NEAR if shown.inserts else far)
         if entity.dxf.get("invisible", 0):
-            self._refuse_entity(name)
-        return _Found(shown, entity, name)
+            self._refuse_entity(f"{name}, invisible")
+        if is_mesh(entity):
+            self._refuse_entity(f"{name}, a mesh of faces")
+        return _Found(shown, entity, name, moved or shown.is_near)
 
     def _lost(self, entities: list[Entity]) -> float:
         """Give what the printing of entities loses, in the drawing's units."""
@@ -193,14 +208,15 @@ class DxfSource:
         limit = f"visible {', '.join(sorted(TRACERS))}"
         _refuse("ENTITY", self._field, name, limit, "Move it to another layer, or convert it.")
 
-    def _traced(self, found: _Found, factor: float) -> Traced:
+    def _traced(self, found: _Found, factor: float, far: Far) -> Traced:
         """Turn an entity into shapes in space, mm."""
+        away = np.array([float(far.x), float(far.y), 0.0])
         with _guarded("E-DXF-ENTITY", self._field, found.name), np.errstate(all="ignore"):
             drawn = self._located(TRACERS[found.shown.entity.kind], found.entity)
             place = found.shown.place
             shapes = [shape._replace(anchors=factor * (shape.anchors @ place[:3, :3])) for shape in drawn.shapes]
-            base = factor * (drawn.base @ place[:3, :3] + place[3, :3])
-        return Traced(found.name, shapes, says_closed(found.entity), base)
+            base = drawn.base @ place[:3, :3] + place[3, :3] - (0.0 if found.is_near else away)
+        return Traced(found.name, shapes, says_closed(found.entity), factor * base, factor * away)
 
     def _located(self, trace: Callable[[Any], Drawn], entity: Any) -> Drawn:
         """Trace the entity; a refusal by its handle gets the project's field before it."""
@@ -218,16 +234,30 @@ class DxfSource:
         turned = [f for f in found if f.entity.dxftype() in _IN_OCS and _is_turned(f.entity)]
         fitted = [f for f in found if f.entity.dxftype() == "SPLINE" and not len(f.entity.control_points)]
         smoothed = [f for f in found if is_smoothed(f.entity)]
+        doubled = [f for f in found if repeats_an_end(f.entity)]
         return (
             *self._remark("W-DXF-BLOCK", "placed as its INSERT says", placed),
+            *self._block_units(placed),
             *self._remark("W-DXF-OCS", "drawn in a turned or mirrored system, read as CAD shows it", turned),
             *self._remark("W-DXF-FIT", "fit points only: a C2 cubic by chord length laid through them", fitted),
+            *self._remark("W-DXF-DOUBLED", _DOUBLED, doubled),
             *self._remark("W-DXF-FIT", "smoothed: the edges that CAD made of it, without their frame", smoothed),
         )
 
     def _remark(self, code: str, text: str, found: list[_Found]) -> tuple[Note, ...]:
         names = ", ".join(f.name for f in found[:4]) + (f" and {len(found) - 4} more" if len(found) > 4 else "")
         return (Note(code, self._field, f"{names}: {text}"),) if found else ()
+
+    def _block_units(self, placed: list[_Found]) -> tuple[Note, ...]:
+        """Note blocks that were drawn in units of their own: the scale of an INSERT already holds them."""
+        keys = sorted({insert.block for f in placed for insert in f.shown.inserts if insert.block})
+        units = {key: self._file.block_units.get(key, 0) for key in keys}
+        other = [key for key, unit in units.items() if unit not in (0, self._file.insunits)]
+        if not other:
+            return ()
+        said = ", ".join(f"{quoted(key)} ({INSUNITS.get(units[key], ('unknown', 0))[0]})" for key in other)
+        text = f"blocks with units of their own, {said}: read as the INSERT scales them"
+        return (Note("W-DXF-BLOCK", self._field, text),)
 
     def _left_out(self, left: list[Shown], layer: str) -> tuple[Note, ...]:
         if not left:

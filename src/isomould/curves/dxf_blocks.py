@@ -14,6 +14,7 @@ from ezdxf.math import OCS
 
 from isomould.arrays import Floats
 from isomould.curves.dxf_file import Block, DxfFile, Entity
+from isomould.curves.dxf_origins import NEAR, Far, brought_near
 from isomould.curves.dxf_records import Record
 from isomould.curves.layer_names import layer_key, quoted
 from isomould.errors import Refused
@@ -39,6 +40,8 @@ class Shown(NamedTuple):
     """From the innermost to the one in the model."""
     place: Floats
     """(4, 4), for rows (x, y, z, 1) from the left."""
+    is_near: bool
+    """Whether the place is measured from the origin that was asked for."""
 
 
 class Expansion:
@@ -61,26 +64,34 @@ class Expansion:
         """Give what a block shows, its own layer 0 among the layers."""
         return self._in_block(layer_key(block.name))
 
-    def on_layer(self, key: str) -> list[Shown]:
-        """Give the entities of the model that are on a layer.
+    def placing(self, key: str) -> Iterator[Entity]:
+        """Give the entities of the model that are on a layer, and the inserts there that show some."""
+        for entity in self._file.spaces.model:
+            own = layer_key(entity.layer)
+            if own == key if entity.block is None else self._shows(entity, own, key):
+                yield entity
+
+    def on_layer(self, layer: str, far: Far = NEAR) -> list[Shown]:
+        """Give the entities of the model that are on a layer, blocks measured from an origin.
 
         Raises
         ------
         Refused
             E-DXF-BLOCK for too many entities, blocks within themselves, references to other files.
         """
+        key = layer_key(layer)
         within = sum(self._count(one, key) for one in self._file.spaces.model if one.block is not None)
         if within > MOST_EXPANDED:
-            found = f"blocks show {within} entities on layer {quoted(key)}"
+            found = f"blocks show {within} entities on layer {quoted(layer)}"
             raise self._refusal(found, f"{MOST_EXPANDED} entities", "Explode what belongs to the curve.")
-        view = _View(key, None, (), np.eye(4))
+        view = _View(key, None, (), np.eye(4), far)
         return [one for entity in self._file.spaces.model for one in self._shown(entity, view)]
 
     def _shown(self, entity: Entity, view: "_View") -> Iterator[Shown]:
         own = _own_layer(entity, view.parent)
         if entity.block is None:
             if own == view.layer:
-                yield Shown(entity, view.inserts, view.place)
+                yield Shown(entity, view.inserts, view.place, view.is_near)
             return
         block = self._file.blocks.get(entity.block)
         if block is None or block.is_reference:
@@ -89,10 +100,14 @@ class Expansion:
             yield from self._inserted(entity, block, view._replace(parent=own))
 
     def _inserted(self, insert: Entity, block: Block, view: "_View") -> Iterator[Shown]:
-        placement = Placement.of(self._file.lines.record(insert.number))
+        record = self._file.lines.record(insert.number)
+        near = record if view.inserts else brought_near(record, view.far, in_world=False)
+        placement = Placement.of(near)
         self._refuse_collapsed(insert, placement)
+        is_near = view.is_near or near is not record
         for matrix in placement.matrices(block.base):
-            inner = view._replace(place=matrix @ view.place, inserts=(insert, *view.inserts))
+            place, inserts = matrix @ view.place, (insert, *view.inserts)
+            inner = view._replace(place=place, inserts=inserts, is_near=is_near)
             for entity in block.entities:
                 if entity.kind != "ATTDEF":
                     yield from self._shown(entity, inner)
@@ -159,6 +174,8 @@ class _View(NamedTuple):
     """Layer of the INSERT."""
     inserts: tuple[Entity, ...]
     place: Floats
+    far: Far
+    is_near: bool = False
 
 
 class Placement(NamedTuple):

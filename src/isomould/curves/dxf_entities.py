@@ -15,6 +15,7 @@ from ezdxf.lldxf.tagger import tag_compiler
 from ezdxf.lldxf.types import DXFTag
 
 from isomould.curves.dxf_file import DxfFile, Entity
+from isomould.curves.dxf_origins import NEAR, Far, brought_near
 from isomould.curves.dxf_records import Record, Tag
 from isomould.curves.printed import PrintedAngle
 
@@ -30,20 +31,26 @@ _FIRST_OF_EXTENDED = 1000
 _POINT_CODES = range(10, 40)
 
 
-def load_entity(file: DxfFile, entity: Entity) -> Any:
-    """Give the entity as ezdxf interprets it; a polyline with its vertices.
+def load_entity(file: DxfFile, entity: Entity, far: Far = NEAR) -> tuple[Any, bool]:
+    """Give the entity as ezdxf interprets it, and whether its places are measured from an origin.
+
+    A polyline comes with its vertices; one that lies in a turned system stays where it is.
 
     Raises
     ------
     Exception
         What ezdxf raises for damaged data.
     """
-    loaded = _loaded(file.lines.record(entity.number))
-    if entity.kind == "POLYLINE":
-        for record in file.following(entity.number):
-            if record.kind == "VERTEX":
-                loaded.vertices.append(_loaded(record))
-    return loaded
+    record = file.lines.record(entity.number)
+    if entity.kind != "POLYLINE":
+        near = brought_near(record, far, in_world=False)
+        return _loaded(near), near is not record
+    loaded = _loaded(record)
+    is_level = bool(loaded.is_3d_polyline) or brought_near(record, far, in_world=False) is not record
+    for vertex in file.following(entity.number):
+        if vertex.kind == "VERTEX":
+            loaded.vertices.append(_loaded(brought_near(vertex, far, in_world=True) if is_level else vertex))
+    return loaded, is_level and bool(far)
 
 
 def coordinates_of(file: DxfFile, entity: Entity) -> list[str]:

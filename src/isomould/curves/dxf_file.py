@@ -93,6 +93,16 @@ class DxfFile:
         return found
 
     @cached_property
+    def block_units(self) -> dict[str, int]:
+        """The units that blocks were drawn in, as $INSUNITS, by key; 0 where a block has none."""
+        found = dict[str, int]()
+        for number in self._section("TABLES"):
+            if self.lines.kind(number) == "BLOCK_RECORD":
+                record = self.lines.record(number)
+                found[layer_key(record.first(2))] = int(record.first(70, "0") or 0)
+        return found
+
+    @cached_property
     def spaces(self) -> _Spaces:
         """The entities of the model and those on paper."""
         model, paper = list[Entity](), list[Entity]()
@@ -125,7 +135,10 @@ class DxfFile:
     def insunits(self) -> int:
         """The number of the header's unit; 0 where it is not there."""
         text = self.header.get("$INSUNITS", "0")
-        return int(text) if text.lstrip("-").isdigit() else -1
+        try:
+            return int(float(text))
+        except (ValueError, OverflowError):
+            return -1
 
     def _section(self, name: str) -> Iterator[int]:
         """Give the numbers of a section's records."""

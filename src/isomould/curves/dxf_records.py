@@ -152,24 +152,32 @@ def _cleaned_lines(content: bytes) -> tuple[list[bytes], tuple[str, ...], int]:
 def _tags(lines: list[bytes], blank: int) -> tuple[list[int], list[bytes], int]:
     """Pair the lines up to the end mark; say how many lines that hold anything stand after it."""
     end = _end_of_drawing(lines)
-    raw = lines[0 : end + 1 : 2]
-    for code in set(raw):
-        if not _PLAIN_CODE.fullmatch(code):
-            line = blank + 2 * raw.index(code) + 1
+    codes = lines[0 : len(lines) if end is None else end : 2]
+    for code in set(codes):
+        if not _PLAIN_CODE.fullmatch(code) and (end is not None or _ends_well(lines)):
+            line = blank + 2 * codes.index(code) + 1
             shown = code.decode("ascii", "backslashreplace").strip()[:20]
             message = f"line {line} should be a group code, but is {shown!r}"
             raise DamagedFile(message)
+    if end is None:
+        message = "it does not end like a DXF file (cut off, or another format)"
+        raise DamagedFile(message)
     trailing = sum(1 for line in lines[end + 2 :] if line.strip(b" \t\x1a"))
-    return [int(code) for code in raw[:-1]], lines[1:end:2], trailing
+    return [int(code) for code in codes], lines[1:end:2], trailing
 
 
-def _end_of_drawing(lines: list[bytes]) -> int:
+def _end_of_drawing(lines: list[bytes]) -> int | None:
     """Give the index of the group code before EOF."""
     for k in range(0, len(lines) - 1, 2):
         if lines[k + 1].rstrip(_CTRL_Z + b" \t").lstrip() == b"EOF" and lines[k].strip() == b"0":
             return k
-    message = "it does not end like a DXF file (cut off, or another format)"
-    raise DamagedFile(message)
+    return None
+
+
+def _ends_well(lines: list[bytes]) -> bool:
+    """Tell whether the last lines are the end mark: then lines were lost or added before it."""
+    last = [line.strip(b" \t\x1a") for line in lines if line.strip(b" \t\x1a")][-2:]
+    return last == [b"0", b"EOF"]
 
 
 def _encoding(codes: list[int], values: list[bytes], content: bytes) -> str:

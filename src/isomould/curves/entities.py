@@ -10,10 +10,11 @@ import numpy as np
 
 from isomould.arrays import Floats
 from isomould.curves import shapes
-from isomould.curves.bspline import Nurbs, interpolated, segments
+from isomould.curves.bspline import Nurbs, interpolated
 from isomould.curves.pieces import Ellipse, Line, Piece
 from isomould.curves.spatial import Shape, anchors, shapes_of
 from isomould.curves.sweep import FULL, counter_clockwise
+from isomould.curves.tidy_splines import has_doubled_ends, tidied_segments
 
 _SMOOTHED = 2 | 4
 """Flags of a polyline that is smoothed by arcs or by a spline."""
@@ -31,6 +32,11 @@ def name_of(entity: Any) -> str:
 def says_closed(entity: Any) -> bool:
     """Tell whether a spline's flags say closed or periodic."""
     return entity.dxftype() == "SPLINE" and bool(entity.dxf.get("flags", 0) & 3)
+
+
+def is_mesh(entity: Any) -> bool:
+    """Tell whether a polyline is no line but a mesh of faces."""
+    return entity.dxftype() == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline)
 
 
 def is_smoothed(entity: Any) -> bool:
@@ -81,9 +87,6 @@ def _lwpolyline(entity: Any) -> Drawn:
 
 
 def _polyline(entity: Any) -> Drawn:
-    if not (entity.is_2d_polyline or entity.is_3d_polyline):
-        message = "a mesh"
-        raise ValueError(message)
     # the frame of a smoothed polyline is beside the curve that CAD shows
     vertices = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _FRAME_VERTEX]
     places = np.array([vertex.dxf.location for vertex in vertices], float).reshape(-1, 3)
@@ -104,14 +107,27 @@ def _bulged(rows: Floats, closed: bool, entity: Any, height: float) -> Drawn:
     return _lifted(pieces, entity, np.append(base, height))
 
 
+def repeats_an_end(entity: Any) -> bool:
+    """Tell whether an entity is a spline that starts or ends with a control point twice."""
+    return (
+        entity.dxftype() == "SPLINE"
+        and len(entity.control_points) > 0
+        and has_doubled_ends(_nurbs_of(entity, np.zeros(3)))
+    )
+
+
+def _nurbs_of(entity: Any, base: Floats) -> Nurbs:
+    points, knots = np.array(entity.control_points, float), np.array(entity.knots, float)
+    weights = np.array(entity.weights, float) if len(entity.weights) else np.ones(len(points))
+    return Nurbs(entity.dxf.degree, points - base, weights, knots)
+
+
 def _spline(entity: Any) -> Drawn:
     if not len(entity.control_points):
         return _through_fit_points(entity)
-    points, knots = np.array(entity.control_points, float), np.array(entity.knots, float)
-    weights = np.array(entity.weights, float) if len(entity.weights) else np.ones(len(points))
-    base = _first_of(points)
-    spline = Nurbs(entity.dxf.degree, points - base, weights, knots)
-    return Drawn(base, shapes_of(segments(spline, name_of(entity))))
+    base = _first_of(np.array(entity.control_points, float))
+    spline = _nurbs_of(entity, base)
+    return Drawn(base, shapes_of(tidied_segments(spline, name_of(entity))))
 
 
 def _through_fit_points(entity: Any) -> Drawn:

@@ -22,12 +22,16 @@ WHOLE = 1000.0
 def origin_of(traced: Iterable[Traced]) -> Floats:
     """Give the origin (3,) mm to read shapes from: 0 along each axis on which nothing is remote.
 
-    Entities in another order, or moved by less than half a metre, have the same origin.
+    Entities in another order have the same origin.
     """
-    corners = [one.base + shape.anchors for one in traced for shape in one.shapes]
-    if not corners:
+    every = list(traced)
+    local = [one.base + shape.anchors for one in every for shape in one.shapes]
+    if not local:
         return np.zeros(3)
-    points = np.concatenate(corners)
+    fars = [one.far for one in every for _ in one.shapes]
+    if all((far == fars[0]).all() for far in fars) and np.abs(np.concatenate(local)).max() <= REMOTE:
+        return fars[0].copy()
+    points = np.concatenate([points + far for points, far in zip(local, fars, strict=True)])
     with np.errstate(invalid="ignore"):
         least = WHOLE * np.round(points.min(axis=0) / WHOLE)
         remote = np.abs(points).max(axis=0) > REMOTE
@@ -35,11 +39,12 @@ def origin_of(traced: Iterable[Traced]) -> Floats:
 
 
 def seen_from(traced: Iterable[Traced], origin: Floats) -> list[Traced]:
-    """Give the same shapes with their anchors measured from one origin (3,) mm, kept as their base."""
+    """Give the same shapes with their anchors measured from one origin (3,) mm, kept as what they are far from."""
     return [
         one._replace(
-            shapes=[shape._replace(anchors=shape.anchors + (one.base - origin)) for shape in one.shapes],
-            base=origin,
+            shapes=[shape._replace(anchors=shape.anchors + (one.base + (one.far - origin))) for shape in one.shapes],
+            base=np.zeros(3),
+            far=origin,
         )
         for one in traced
     ]

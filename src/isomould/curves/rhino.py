@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from isomould.arrays import Floats
-from isomould.curves.bspline import Nurbs, segments
+from isomould.curves.bspline import Nurbs
 from isomould.curves.drawing_units import RHINO_SYSTEMS, FoundUnit, refuse_no_unit, unit_of
 from isomould.curves.layer_names import layer_key, listed, quoted
 from isomould.curves.layers import LayerContent, LayerDrawing
 from isomould.curves.pieces import Ellipse, Line
 from isomould.curves.spatial import Shape, Traced, shapes_of
+from isomould.curves.tidy_splines import tidied_segments
 from isomould.errors import Note, OutputFault, Refused
 from isomould.units import LengthUnit
 
@@ -262,7 +263,7 @@ def _nurbs(curve: Any, base: Floats, name: str) -> list[Shape]:
     full = np.concatenate([knots[:1], knots, knots[-1:]])
     with np.errstate(all="ignore"):
         spline = Nurbs(curve.Degree, points[:, :3] / points[:, 3:] - base, points[:, 3], full)
-    return shapes_of(segments(spline, name))
+    return shapes_of(tidied_segments(spline, name))
 
 
 def _polycurve(curve: Any, base: Floats, name: str) -> list[Shape]:

@@ -31,13 +31,15 @@ class Shape(NamedTuple):
 
 
 class Traced(NamedTuple):
-    """An entity's shapes in its own direction, their anchors measured from `base`."""
+    """An entity's shapes in its own direction, their anchors measured from `base`, and that from `far`."""
 
     name: str
     shapes: list[Shape]
     says_closed: bool
     base: Floats = _NOWHERE
-    """(3,) mm."""
+    """(3,) mm: a place of the entity."""
+    far: Floats = _NOWHERE
+    """(3,) mm: whole metres near a remote drawing, else 0."""
 
 
 def anchors(piece: Piece) -> tuple[Floats, tuple[float, ...]]:
@@ -156,7 +158,7 @@ def refuse_wild(traced: list[Traced], field: str) -> None:
 
 def _refuse_wild(one: Traced, field: str) -> None:
     numbers = [np.append(shape.anchors.ravel(), shape.numbers) for shape in one.shapes]
-    biggest = float(np.max(np.abs(np.concatenate([*numbers, one.base])), initial=0.0))
+    biggest = float(np.max(np.abs(np.concatenate([*numbers, one.base, one.far])), initial=0.0))
     if not biggest < REMOTEST:
         found, limit = f"{one.name}: a number {biggest:g}", f"finite numbers below {REMOTEST:g} mm"
         raise Refused("E-CURVE-NUMBER", field, found, limit, "Draw it near the origin.")
