@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
+from isomould.curves.construction import build_curve
 from isomould.curves.lengths import length
 from isomould.curves.local_curves import build_local_curve
-from isomould.curves.settings import CurveSettings, build_curve
+from isomould.curves.settings import CurveSettings
 from isomould.errors import Refused
 
 CASES = Path(__file__).parent / "cases"
