@@ -12,7 +12,7 @@ from museum import DELIVERED, write_project
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Let the long run build as many plausible projects as are asked for."""
-    parser.addoption("--plausible", type=int, default=2000, help="random projects that the long run builds")
+    parser.addoption("--plausible", type=int, default=40, help="random projects that the long run builds")
 
 
 @pytest.fixture(scope="session")
