@@ -10,6 +10,9 @@ from isomould.design import Design
 from isomould.documents.figures import Figure, class_figures, count_figures, edge_figures, panel_figures
 from isomould.errors import Note
 from isomould.estimate import estimate
+from isomould.form.assemble import RailInPlane
+from isomould.measure.anisotropy import anisotropy_at_apex
+from isomould.measure.smooth import Smooth
 from isomould.nesting.settings import StockSettings
 from isomould.parts.panel_sizes import PanelSizes, measure_panels, trade_notes
 from isomould.parts.plates import Shape
@@ -43,8 +46,25 @@ def size_design(design: Design, bodies: Sequence[Shape]) -> Sized:
         *_on_bars(design, stock),
         *class_figures(kit),
         *count_figures(kit),
+        *apex_figures(design),
     )
     return Sized(figures, (*trade_notes(sizes, project.limits), *estimated.notes))
+
+
+def apex_figures(design: Design) -> Iterator[Figure]:
+    """Say how long the highest panel is for its width, and how the radii of curvature compare there (paper, Table 4).
+
+    A rail in space has no radii; where a curve is straight, their ratio is no number.
+    """
+    if not isinstance(design.rail, RailInPlane):
+        return
+    found = anisotropy_at_apex(design.form, Smooth(design.rail.curve, design.generatrix, design.rail.plane))
+    if found is None or not np.isfinite(found.radii):
+        return
+    rows = np.flatnonzero((design.mesh.face_ij == found.panel).all(axis=1))
+    where = design.kit.panels.locations[rows[0]] if len(rows) else ""
+    yield Figure("apex_aspect", "Highest panel, L/l", found.aspect, "", where)
+    yield Figure("apex_radii", "Radii of curvature there, R1/R2", found.radii, "", where)
 
 
 def _on_sheets(sizes: PanelSizes, stock: StockSettings) -> Iterator[Figure]:

@@ -5,7 +5,8 @@ import pytest
 
 from isomould.measure.anisotropy import anisotropy_at_apex
 from isomould.measure.smooth import Smooth
-from museum import MONGE, changed, sketched, template
+from isomould.sizing import apex_figures
+from museum import MONGE, changed, design, sketched, template
 
 RADII = {"dome-oblong": 3.60, "dome-intermediate": 2.01, "dome-spherical": 1.13}
 
@@ -33,6 +34,14 @@ def test_the_apex_is_the_middle():
     (row, strip), _, _ = apex("dome-spherical", 14)
     assert strip == 7
     assert row == pytest.approx(np.floor(row))
+
+
+def test_check_prints_both():
+    """The dome as it stands: Table 4 has L/l = 1.12 and R1/R2 = 1.13 for 15 subdivisions."""
+    figures = {figure.name: figure for figure in apex_figures(design(template("dome-spherical")))}
+    assert figures["apex_radii"].value == pytest.approx(1.13, abs=0.01)
+    assert figures["apex_aspect"].value == pytest.approx(1.12, rel=0.05)
+    assert figures["apex_aspect"].where.startswith("P-")
 
 
 def test_rails_in_space_have_none():
