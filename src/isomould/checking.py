@@ -83,7 +83,7 @@ def _checked(loaded: LoadedProject, designs: dict[str, Design], bodies: tuple[Sh
         design=design,
         facts=kit_facts(design.kit),
         divisions=tuple(map(survey, curves, polygons, requests_of(loaded.project))),
-        notes=(*design.notes, *sized.notes),
+        notes=(*loaded.notes, *design.notes, *sized.notes),
         kit=kit_table(designs) if loaded.shapes else None,
         figures=sized.figures,
     )

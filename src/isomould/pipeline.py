@@ -100,6 +100,7 @@ def _design(loaded: LoadedProject, run: Run) -> tuple[dict[str, Design], Table |
         raise Refused("E-SHAPE-PREVIOUS", "--previous", found, limit, way_out)
     run.report("curves, surface, parts")
     designs = rehearse(loaded)
+    designs[MAIN] = replace(designs[MAIN], notes=(*loaded.notes, *designs[MAIN].notes))
     return designs, kit_table(designs) if loaded.shapes else None
 
 

@@ -32,6 +32,10 @@ def _acute(value: float) -> float:
     return value
 
 
+WAYS = ("nodes", "angle_deg", "angles", "per_arc", "stations", "phase")
+"""Keys of `divide` that exclude each other."""
+
+
 class SlopePhase(Settings):
     """Phase of an edge offset mesh by the normal latitude of one edge."""
 

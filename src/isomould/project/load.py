@@ -1,21 +1,23 @@
 """Reading project files: TOML, overrides, and errors that name the field and the nearest key."""
 
 import difflib
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast, get_args
+from typing import Any, cast
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from isomould.documents.info import Logo
-from isomould.errors import Gathering, OutputFault, Refused, RefusedTogether
+from isomould.errors import Gathering, Note, OutputFault, Refused, RefusedTogether
+from isomould.form.settings import WAYS
+from isomould.project.keys import is_length, known_keys
 from isomould.project.logo import read_logo
 from isomould.project.schema import Project, ShapeTable
 from isomould.project.wording import Words, word
-from isomould.settings import Settings
 
 _LARGEST_FILE = 1_000_000
 
@@ -32,6 +34,8 @@ class LoadedProject:
     source: bytes
     shapes: tuple[tuple[str, Project], ...] = ()
     logo: Logo | None = None
+    notes: tuple[Note, ...] = ()
+    """What should be known about the changes."""
 
 
 def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
@@ -51,27 +55,71 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
     OutputFault
         If the file cannot be read.
     """
+    path = find_project(path)
     source, folder = _read(path), path.resolve().parent
     with Gathering() as faults:
         data = _overridden(_parse(source, path), overrides, faults)
         project = faults.run(validate, data, path.name)
         shapes = faults.run(lambda: _shapes(data, project.value, path.name))
         logo = faults.run(lambda: read_logo(folder, project.value.project.logo))
-    return LoadedProject(project.value, folder, source, shapes.value, logo.value)
+    return LoadedProject(project.value, folder, source, shapes.value, logo.value, _unit_notes(overrides, data))
+
+
+def find_project(path: Path) -> Path:
+    """Give the file that a user names, with or without its ending.
+
+    >>> find_project(Path("templates/barrel-vault")).name
+    'barrel-vault.toml'
+    """
+    whole = path.with_name(f"{path.name}.toml") if path.name else path
+    return whole if not path.is_file() and whole.is_file() else path
 
 
 def read_tables(path: Path, overrides: Sequence[str] = ()) -> Mapping[str, Any]:
     """Read the tables of a project file, with the overrides in place and nothing checked yet."""
+    path = find_project(path)
     with Gathering() as faults:
         return _overridden(_parse(_read(path), path), overrides, faults)
 
 
 def _overridden(data: Mapping[str, Any], overrides: Sequence[str], faults: Gathering) -> Mapping[str, Any]:
-    """Set one value after another; one that cannot be set is left out and told."""
+    """Set one value after another; one that cannot be set is left out and told.
+
+    What the file says in another way than a change is replaced by it; two changes in two ways are a conflict.
+    """
+    for change in overrides:
+        data = _without_rivals(data, change.partition("=")[0].strip())
     for change in overrides:
         changed = faults.run(_override, data, change)
         data = changed.result or data
     return data
+
+
+def _without_rivals(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    """Take out the other ways to divide a curve if a change says how to."""
+    path = key.split(".")
+    if len(path) < 3 or path[1] != "divide" or path[2] not in WAYS:
+        return data
+    table = data.get(path[0])
+    divide = cast("Mapping[str, Any]", table).get("divide") if isinstance(table, Mapping) else None
+    if not isinstance(divide, Mapping):
+        return data
+    kept = {k: v for k, v in cast("Mapping[str, Any]", divide).items() if k not in WAYS or k == path[2]}
+    return with_value(data, f"{path[0]}.divide", kept)
+
+
+def _unit_notes(overrides: Sequence[str], data: Mapping[str, Any]) -> tuple[Note, ...]:
+    """Say what bare numbers were taken for in the place of lengths."""
+    pairs = [(key.strip(), text.strip()) for key, _, text in (change.partition("=") for change in overrides)]
+    return tuple(
+        Note("W-SET-UNIT", f"--set {key}", f'{text} was taken for {text} mm; other lengths name their unit: "{text} m"')
+        for key, text in pairs
+        if _BARE.fullmatch(text) and is_length(key.split("."), data)
+    )
+
+
+_BARE = re.compile(r"[+-]?[0-9][0-9_.]*(?:[eE][+-]?[0-9]+)?")
+"""A number without a unit."""
 
 
 def _shapes(data: Mapping[str, Any], project: Project, name: str) -> tuple[tuple[str, Project], ...]:
@@ -180,10 +228,11 @@ def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> list[Words]:
     """Say value found, limit and way out of one of pydantic's findings, which may be several in one."""
     path, siblings = _locate(detail["loc"], data, lost=detail["type"] == "missing")
     if detail["type"] == "extra_forbidden":
-        known = _known_keys(path[:-1])
+        known = known_keys(path[:-1], data)
         near = difflib.get_close_matches(path[-1], known, 1, 0.5)
-        if path[-1] in known:
-            return [Words("a key of another kind of this table", "the keys of its own", "See docs/project-file.md.")]
+        if path[-1] in known_keys(path[:-1]):
+            limit = f"one of {', '.join(known)}"
+            return [Words("a key of another kind of this table", limit, "Remove it, or change the kind.")]
         hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
         return [Words("unknown key", f"one of {', '.join(known)}", hint)]
     if detail["type"] == "missing":
@@ -210,19 +259,3 @@ def _locate(location: Sequence[str | int], data: Mapping[str, Any], lost: bool) 
 def _item(values: list[Any], number: int) -> Any:
     """Item of a list, None beyond its end: a list that is too short is itself the finding."""
     return values[number] if number < len(values) else None
-
-
-def _known_keys(tables: Sequence[str]) -> list[str]:
-    """Keys that the table at a path may have, in all its variants."""
-    models: set[type[Settings]] = {Project}
-    for table in tables:
-        fields = [f for m in models for name, f in m.model_fields.items() if (f.alias or name) == table]
-        models = {model for field in fields for model in _settings_in(field.annotation)} or models
-    return sorted({field.alias or name for model in models for name, field in model.model_fields.items()})
-
-
-def _settings_in(annotation: object) -> set[type[Settings]]:
-    """All settings types inside an annotation."""
-    if isinstance(annotation, type) and issubclass(annotation, Settings):
-        return {annotation}
-    return {model for part in get_args(annotation) for model in _settings_in(part)}
