@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from nesting_examples import trapezoid
+from nesting_examples import rows_of_trapezoids, trapezoid
 
-from isomould.nesting import offcuts
+from isomould.nesting import offcuts, search
 from isomould.nesting.checker import check_layout
 from isomould.nesting.cut_checker import Replay, replay
 from isomould.nesting.files import layout_to_json
@@ -83,3 +83,16 @@ def test_many_pieces_take_as_many_sheets_as_their_share(effort: Effort) -> None:
     assert len(many.sheets) <= 5 * len(few.sheets)
     again = nest_sheets([replace(p, quantity=p.quantity * 5) for p in MIX], STOCK, Search(effort, jobs=2))
     assert layout_to_json(again) == layout_to_json(many)
+
+
+def test_a_hasty_search_stays_near_the_fine_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small pools on a coarse grid: proved like all others, and at most a sheet more."""
+    parts = rows_of_trapezoids(4, 10, 24)
+    stock = StockSettings(sheets=(SheetStock(name="glass", width=6000, height=3210),), gap=5, trim=20)
+    fine = nest_sheets(parts, stock, Search("quick"))
+    monkeypatch.setattr(search, "HASTY", 100)
+    monkeypatch.setattr(search, "POOL", 120)
+    monkeypatch.setattr(search, "SMALL_POOL", 60)
+    hasty = nest_sheets(parts, stock, Search("quick"))
+    assert check_layout(parts, stock, hasty) == ()
+    assert len(hasty.sheets) <= len(fine.sheets) + 1

@@ -91,7 +91,7 @@ def _side(piece: Polygon, normal: Floats, level: float) -> Polygon:
     if not len(piece):
         return piece
     height = piece @ normal - level
-    after, beyond = np.roll(piece, -1, axis=0), np.roll(height, -1)
+    after, beyond = np.concatenate([piece[1:], piece[:1]]), np.concatenate([height[1:], height[:1]])
     crossing = (height < 0) != (beyond < 0)
     share = np.divide(height, height - beyond, out=np.zeros_like(height), where=crossing)
     met = piece + share[:, None] * (after - piece)

@@ -14,6 +14,7 @@ from isomould.nesting.layout import Id, Layout, Part, Sheet
 from isomould.nesting.offcuts import measure_cuts
 from isomould.nesting.portfolio import find_plans
 from isomould.nesting.rack import (
+    PartClass,
     blank_length,
     box,
     make_blank_rack,
@@ -46,7 +47,7 @@ def nest_sheets(parts: Sequence[Part], stock: StockSettings, task: Search | None
     """
     refuse_unnestable(parts, stock)
     classes = sort_classes(parts)
-    found = find_plans(make_rack(classes, stock), piece_counts(classes), task or Search()) if classes else NOTHING
+    found = _search(classes, stock, task or Search()) if classes else NOTHING
     filling = fill_stock(found.plans, classes, stock)
     polygons = {part.id: part.polygon for part in parts}
     placed = [polygons[item[0][0]] for sheet in filling.filled for item in sheet.placed]
@@ -61,6 +62,11 @@ def of_material(layout: Layout, parts: Sequence[Part], stock: StockSettings) -> 
     of_stock = {kind.name: kind.made_of for kind in stock.sheets}
     on = {item.sheet: of_part[item.id] for item in layout.placements}
     return tuple(replace(sheet, material=on[sheet.id].completed(of_stock[sheet.stock])) for sheet in layout.sheets)
+
+
+def _search(classes: Sequence[PartClass], stock: StockSettings, task: Search) -> Found:
+    rack = make_rack(classes, stock, coarse=task.hastens(len(classes)))
+    return find_plans(rack, piece_counts(classes), task)
 
 
 def nest_blanks(parts: Sequence[Part], stock: StockSettings) -> Layout:

@@ -23,6 +23,9 @@ STEP = 1000
 LONGEST = 12_000
 """Grid steps in the longest strip."""
 
+COARSE = 1500
+"""The same on a coarse grid, on which a strip loses two parts in a thousand."""
+
 
 FREE = 1e-6
 """What a remnant without a price costs, in shares of the dearest sheet."""
@@ -75,10 +78,11 @@ def locations(given: tuple[str, ...], quantity: int) -> tuple[str | None, ...]:
     return given or (None,) * quantity
 
 
-def make_rack(classes: Sequence[PartClass], stock: StockSettings) -> Rack:
-    """Set up every way to cut every stock sheet."""
+def make_rack(classes: Sequence[PartClass], stock: StockSettings, *, coarse: bool = False) -> Rack:
+    """Set up every way to cut every stock sheet, measured on a fine or a coarse grid."""
     rooms = [room_inside(sheet.width, sheet.height, stock.trim) for sheet in stock.sheets]
-    grid = make_grid(max(max(room.width, room.height) for room in rooms), stock)
+    longest = max(max(room.width, room.height) for room in rooms)
+    grid = make_grid(longest, stock, COARSE if coarse else LONGEST)
     frames = [frame for index in range(len(rooms)) for frame in _frames(index, rooms, classes, stock, grid)]
     pieces = [PLENTY if sheet.quantity is None else sheet.quantity for sheet in stock.sheets]
     areas = _areas(classes, rooms)
@@ -106,9 +110,9 @@ def blank_length(stock: StockSettings) -> int:
     return room_inside(stock.max_blank_length, stock.max_blank_length, stock.trim).width
 
 
-def make_grid(longest: int, stock: StockSettings) -> Grid:
+def make_grid(longest: int, stock: StockSettings, steps: int = LONGEST) -> Grid:
     """Give a grid that is fine enough for panels and coarse enough for coils."""
-    step = STEP * max(1, -(-longest // (STEP * LONGEST)))
+    step = STEP * max(1, -(-longest // (STEP * steps)))
     return Grid(step, stock.gap * UM, flips=stock.turning != "none", turns_over=stock.turn_over)
 
 

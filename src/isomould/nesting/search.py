@@ -23,6 +23,15 @@ ROUNDS: dict[Effort, float] = {"quick": 0.5, "normal": 2, "best": 2}
 POOL = 700
 """Pieces that a filling sees at a time; each pool has all heights."""
 
+SMALL_POOL = 150
+"""The same in a hasty search."""
+
+MOST_ROUNDS = 60
+"""Re-fillings of a hasty search at most."""
+
+HASTY = 2000
+"""Different parts from which a quick search is hasty."""
+
 KEPT = 0.7
 """Part of the sheets of a pool that stay, the fullest ones; what lies on the others goes into the next pool."""
 
@@ -71,6 +80,10 @@ class Search:
         """True once the search should stop."""
         return self.should_stop is not None and self.should_stop()
 
+    def hastens(self, different: int) -> bool:
+        """Tell whether so many different parts want a coarser grid and smaller pools to be nested quickly."""
+        return self.effort == "quick" and different > HASTY
+
     def tell(self, done: int, total: int, sheets: int, bound: int) -> None:
         """Tell whoever wants to know how far the search has come."""
         if self.progress is not None:
@@ -89,7 +102,7 @@ class Found:
 def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew: Crew) -> Found:
     """Fill sheets anew until the rounds of the effort are over or the goal is met."""
     chance = np.random.default_rng(0)
-    total, windows = round(ROUNDS[task.effort] * _different(plans)), _windows_at_once(rack, plans)
+    total, windows = _rounds(plans, task, counts), _windows_at_once(rack, plans)
     for done in range(0, total, windows):
         if len(plans) <= rack.goal:
             break
@@ -98,6 +111,11 @@ def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew
         plans = _refill(rack, plans, counts, chance, crew)
         task.tell(min(done + windows, total), total, len(plans), rack.goal)
     return Found(plans, ended=True)
+
+
+def _rounds(plans: Sequence[SheetPlan], task: Search, counts: Ints) -> int:
+    rounds = round(ROUNDS[task.effort] * _different(plans))
+    return min(rounds, MOST_ROUNDS) if task.hastens(len(counts)) else rounds
 
 
 def _different(plans: Sequence[SheetPlan]) -> int:
@@ -115,7 +133,8 @@ def first_sheets(rack: Rack, counts: Ints, task: Search, crew: Crew) -> list[She
     left = counts
     while left.sum() > POOL and rack.stock.min() >= PLENTY and not task.stops:
         worth = rack.areas ** (1 + POOL_FAVOUR)
-        filled = crew([Order(pool, worth, rack.stock) for pool in _pools(left, POOL)[:LANES]])
+        pools = _pools(left, SMALL_POOL if task.hastens(len(counts)) else POOL)
+        filled = crew([Order(pool, worth, rack.stock) for pool in pools[:LANES]])
         full = [plan for made in filled for plan in _fullest(rack, made)]
         full *= _times(full, left)
         plans += full

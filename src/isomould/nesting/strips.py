@@ -258,9 +258,11 @@ def _copies(item: Item, counts: Ints, capacity: int) -> int:
 
 def _layer(kind: Kind, items: list[Item], best: Floats, values: Floats) -> _Layer:
     """Take up one kind into `best`, in place."""
-    opened = best[None] if kind.ends is None else _open(best, kind.ends)
+    if kind.ends is None:
+        return _Layer(kind, items, [_take(best[None], item.size, values[item.part]) for item in items], [])
+    opened = _open(best, kind.ends)
     taken = [_take(opened, item.size, values[item.part]) for item in items]
-    closed = [_close(best, chains, setup) for chains, setup in zip(opened, _setups(kind), strict=True)]
+    closed = [_close(best, chains, setup) for chains, setup in zip(opened, _setups(kind.ends), strict=True)]
     return _Layer(kind, items, taken, closed)
 
 
@@ -269,11 +271,9 @@ def _open(best: Floats, ends: Ends) -> Floats:
     return np.stack([best, np.full(len(best), -np.inf)]) if ends.differ else best[None].copy()
 
 
-def _setups(kind: Kind) -> tuple[int, ...]:
+def _setups(ends: Ends) -> tuple[int, ...]:
     """Give what the ends of chains need, row by row."""
-    if kind.ends is None:
-        return (0,)
-    return (kind.ends.even, kind.ends.odd) if kind.ends.differ else (kind.ends.odd,)
+    return (ends.even, ends.odd) if ends.differ else (ends.odd,)
 
 
 def _take(best: Floats, size: int, value: float) -> Bools:
@@ -311,7 +311,7 @@ def _trace_layer(layer: _Layer | LinkedLayer, room: int) -> tuple[list[Block], i
         items, room = _trace_items(layer, room, 0)
         return [(item,) for item in items], room
     # Odd chains were the last to be ended: where they pay, they are what is best.
-    for row, setup in reversed(list(enumerate(_setups(layer.kind)))):
+    for row, setup in reversed(list(enumerate(_setups(layer.kind.ends)))):
         if room >= setup and layer.closed[row][room - setup]:
             items, room = _trace_items(layer, room - setup, row)
             return [tuple(items)], room
