@@ -63,7 +63,7 @@ class _Canvas:
         self.draw.ellipse((x - radius, y - radius, x + radius, y + radius), fill=dot.fill)
 
     def _caption(self, caption: Caption) -> None:
-        font = ImageFont.truetype(_FONT, round(caption.size * self.scale))
+        font = ImageFont.truetype(str(_FONT), round(caption.size * self.scale))
         place = self._at(*caption.position)
         self.draw.text(place, caption.text, fill=INK, font=font, anchor=_ANCHORS[caption.anchor])
 
