@@ -119,9 +119,10 @@ def _add(master: Master, column: Column, cost: float, entries: dict[int, int]) -
 
 def solve(master: Master, left: Ints) -> Solution:
     """Solve for the pieces that are left; strips that take more of a part than that are barred."""
-    parts = np.arange(len(left), dtype=np.int32)
-    master.solver.changeRowsBounds(len(left), parts, left.astype(np.float64), np.full(len(left), highspy.kHighsInf))
     counts = left.tolist()
+    # row by row: HiGHS 1.12 and older cannot change many at once
+    for part, count in enumerate(counts):
+        master.solver.changeRowBounds(part, float(count), highspy.kHighsInf)
     barred = [any(counts[part] < count for part, count in column.takes) for column in master.columns]
     upper = np.where(barred, 0.0, highspy.kHighsInf)
     columns = np.arange(len(upper), dtype=np.int32)
