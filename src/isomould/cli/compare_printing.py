@@ -8,7 +8,8 @@ from rich.table import Table
 from isomould.cli.console import console
 from isomould.comparison import Compared, families_table
 from isomould.documents import table as tables
-from isomould.documents.numbers import format_number
+from isomould.documents.columns import unit
+from isomould.documents.digits import shown
 
 
 def print_families(compared: Sequence[Compared]) -> None:
@@ -21,12 +22,15 @@ def print_families(compared: Sequence[Compared]) -> None:
 
 def _families(families: tables.Table) -> Table:
     """One column per family, one row per measure."""
-    columns = [(column.header, tables.cells(families, column)) for column in families.columns]
-    table = Table("", *(str(name) for name in columns[0][1]), box=None)
-    for header, cells in columns[1:-1]:
-        table.add_row(header, *("–" if cell is None else _short(cell) for cell in cells))
+    names, *measures, _ = families.columns
+    table = Table("", *map(str, tables.cells(families, names)), box=None)
+    for column in measures:
+        cells = tables.cells(families, column)
+        table.add_row(column.header, *(_short(cell, unit(column.name)) for cell in cells))
     return table
 
 
-def _short(cell: tables.Cell) -> str:
-    return format_number(cell) if isinstance(cell, int | float) else str(cell)
+def _short(cell: tables.Cell, of: str) -> str:
+    if cell is None:
+        return "–"
+    return shown(cell, of) if isinstance(cell, int | float) else str(cell)
