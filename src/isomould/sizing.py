@@ -12,6 +12,7 @@ from isomould.errors import Note
 from isomould.estimate import estimate
 from isomould.form.assemble import RailInPlane
 from isomould.measure.anisotropy import anisotropy_at_apex
+from isomould.measure.evenness import evenness_notes, measure_evenness
 from isomould.measure.smooth import Smooth
 from isomould.nesting.settings import StockSettings
 from isomould.parts.panel_sizes import PanelSizes, measure_panels, trade_notes
@@ -48,7 +49,20 @@ def size_design(design: Design, bodies: Sequence[Shape]) -> Sized:
         *count_figures(kit),
         *apex_figures(design),
     )
-    return Sized(figures, (*trade_notes(sizes, project.limits), *estimated.notes))
+    notes = (*trade_notes(sizes, project.limits), *curvature_notes(design), *estimated.notes)
+    return Sized(figures, notes)
+
+
+def curvature_notes(design: Design) -> tuple[Note, ...]:
+    """Note where the surface is curved too little or too unequally for its panels; rails in space have no notes."""
+    if not isinstance(design.rail, RailInPlane):
+        return ()
+    panels = design.mesh.face_ij
+    smooth = Smooth(design.rail.curve, design.generatrix, design.rail.plane)
+    measured = measure_evenness(design.form, smooth, panels)
+    places = (tuple(place) for place in panels.tolist())
+    names = dict(zip(places, design.kit.panels.locations, strict=True))
+    return tuple(evenness_notes(measured, names)) if measured else ()
 
 
 def apex_figures(design: Design) -> Iterator[Figure]:

@@ -35,14 +35,19 @@ def anisotropy_at_apex(form: Form, smooth: Smooth) -> Anisotropy | None:
     """
     if isinstance(form.rail, SpatialPolygon):
         return None
-    corners = _corners(form)
-    height = np.round(corners[..., 2].mean(axis=0), 6)
+    height = np.round(_corners(form)[..., 2].mean(axis=0), 6)
     height[form.surface.profile.gap] = -np.inf
     row, strip = (int(k) for k in np.unravel_index(int(np.argmax(height)), height.shape))
-    sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=-1)[:, row, strip]
-    along, across = sides[0] + sides[2], sides[1] + sides[3]
-    aspect = float(max(along, across) / min(along, across))
+    on_parallel, on_generatrix = (sides[row, strip] for sides in mean_sides(form))
+    aspect = float(max(on_parallel, on_generatrix) / min(on_parallel, on_generatrix))
     return Anisotropy((row, strip), aspect, float(radii_ratios(smooth, form)[row, strip]))
+
+
+def mean_sides(form: Form) -> tuple[Floats, Floats]:
+    """Give the mean lengths (rows, strips) mm of opposite sides of all panels: along parallels, along generatrices."""
+    corners = _corners(form)
+    sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=-1)
+    return (sides[0] + sides[2]) / 2, (sides[1] + sides[3]) / 2
 
 
 def _corners(form: Form) -> Floats:

@@ -69,8 +69,24 @@ def curvature(curve: PlanarCurve, piece: Ints, parameter: Floats) -> Floats:
 def radii_ratios(smooth: Smooth, form: Form) -> Floats:
     """Give the ratio R1/R2 >= 1 of the principal radii (rows, strips) where each panel touches the surface (Table 4).
 
-    `R1 = (ρ + d)/cos μ` along the parallels, ρ the rail's radius and μ the normal's latitude; R2 that of the
-    generatrix. Infinite where one of the curves is straight.
+    Infinite where one of the curves is straight.
+    """
+    across, along = principal_curvatures(smooth, form)
+    with np.errstate(divide="ignore"):
+        ratio = np.abs(along / across)
+        return np.maximum(ratio, 1 / ratio)
+
+
+def principal_curvatures(smooth: Smooth, form: Form) -> tuple[Floats, Floats]:
+    """Give the principal curvatures (rows, strips) 1/mm where each panel touches the surface.
+
+    The first is that of the parallels, `cos μ · κ / (1 + κ d)`: κ is the rail's curvature, d the distance from it, μ
+    the normal's latitude. The second is that of the generatrix, the same in every strip.
+
+    Raises
+    ------
+    TypeError
+        For a rail in space.
     """
     if isinstance(form.rail, SpatialPolygon):
         message = "a rail in space has no principal radii in one plane"
@@ -79,6 +95,4 @@ def radii_ratios(smooth: Smooth, form: Form) -> Floats:
     kappa = curvature(smooth.rail, rail.piece, rail.parameter)
     bend = curvature(smooth.generatrix, generatrix.piece, generatrix.parameter)
     across = np.cos(form.surface.profile.latitude)[:, None] * kappa / (1 + kappa * generatrix.contact[:, :1])
-    with np.errstate(divide="ignore"):
-        ratio = np.abs(bend[:, None] / across)
-        return np.maximum(ratio, 1 / ratio)
+    return across, np.broadcast_to(bend[:, None], across.shape)
