@@ -10,8 +10,8 @@ import shapely
 
 from isomould.arrays import Floats, read_only, round_um
 from isomould.errors import Refused
-from isomould.nesting.layout import Grain, Id, Member, Part
-from isomould.nesting.material import NAMES, Material
+from isomould.nesting.layout import Id, Member, Part
+from isomould.nesting.material import NAMES, Grain, Material
 
 LONGEST = 1e6
 """mm; no stock is a kilometre long."""

@@ -10,7 +10,8 @@ import shapely
 from scipy.optimize import Bounds, LinearConstraint, milp
 
 from isomould.arrays import Floats
-from isomould.nesting.layout import BoundKind, Grain
+from isomould.nesting.layout import BoundKind
+from isomould.nesting.material import Grain
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away
 

@@ -11,7 +11,8 @@ import shapely
 
 from isomould.arrays import Floats, Ints
 from isomould.nesting.cut_checker import replay, sheet_inside, stands_out
-from isomould.nesting.layout import BLANK, CutTree, Grain, Id, Layout, Part, Placement, Sheet
+from isomould.nesting.layout import BLANK, CutTree, Id, Layout, Part, Placement, Sheet
+from isomould.nesting.material import Grain
 from isomould.nesting.material_checker import material_faults
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.twins import first_twins, without_twins

@@ -7,15 +7,13 @@ from typing import Any, Literal
 import shapely
 
 from isomould.arrays import Floats
-from isomould.nesting.material import Material
+from isomould.nesting.material import Grain, Material
 
 Id = int | str
 """The name of a part: the mark in the pipeline, whatever the file says in a part list of others."""
 
 Status = Literal["complete", "interrupted", "incomplete"]
 BoundKind = Literal["area", "lp"]
-Grain = Literal["along", "across"]
-"""How the grain of a part lies to the x axis of its outline; on a sheet it runs along the width."""
 
 Turned = Literal["none", "end_for_end", "upside_down", "both"]
 """How a piece lies on its bar compared with its member: turned by 180 degrees in its plane, mirrored top to bottom."""

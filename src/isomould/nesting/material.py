@@ -2,9 +2,12 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
-from typing import NoReturn, TypeVar
+from typing import Literal, NoReturn, TypeVar
 
 from isomould.errors import Refused
+
+Grain = Literal["along", "across"]
+"""How the grain of a part lies to the x axis of its outline; on a sheet it runs along the width."""
 
 _SHOWN = 8
 

@@ -10,8 +10,9 @@ from isomould.arrays import Floats, Ints
 from isomould.errors import Refused
 from isomould.nesting.bound import Room, bound_stock, fits, room_inside
 from isomould.nesting.cover import PLENTY, Rack
-from isomould.nesting.layout import Grain, Id, Part
+from isomould.nesting.layout import Id, Part
 from isomould.nesting.linked import measure_links
+from isomould.nesting.material import Grain
 from isomould.nesting.settings import SheetStock, StockSettings, allowed_rotations_deg
 from isomould.nesting.shapes import UM, micrometres, round_away, stand
 from isomould.nesting.sheets import Frame

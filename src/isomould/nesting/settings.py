@@ -6,8 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator
 
-from isomould.nesting.layout import Grain
-from isomould.nesting.material import Material
+from isomould.nesting.material import Grain, Material
 from isomould.settings import Name, Settings, Text
 from isomould.units import Count, Flag, NonNegativeLength, NonNegativeNumber, PositiveLength
 
