@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 
 from isomould.errors import Attempt, Gathering, Refused
 from isomould.project.load import LoadedProject, load_project, read_tables
-from isomould.project.salvage import salvage
-from isomould.project.schema import MAIN
 from isomould.running import Checked
 from isomould.writers.names import safe_name
 
@@ -39,15 +37,19 @@ def check_file(path: Path, changes: Sequence[str]) -> Checked:
         faults.run(lambda: safe_name(loaded.value.project.project.name))
         bodies: dict[str, tuple[Shape, ...]] = {}
         designs = faults.run(lambda: _rehearsed(loaded, bodies))
-        return _checked(loaded.value, designs.value, bodies[designs.value[MAIN].name])
+        return _checked(loaded.value, designs.value, bodies)
 
 
 def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None:
     """Draw and divide the curves of a file that has faults elsewhere; what cannot be read was told already."""
     try:
-        project = salvage(read_tables(path, changes))
+        tables = read_tables(path, changes)
     except Refused:
         return
+
+    from isomould.project.salvage import salvage
+
+    project = salvage(tables)
     if project is not None:
         from isomould.design import try_curves
 
@@ -68,16 +70,17 @@ def _rehearsed(loaded: Attempt[LoadedProject], bodies: dict[str, tuple[Shape, ..
     return rehearse(project, further)
 
 
-def _checked(loaded: LoadedProject, designs: dict[str, Design], bodies: tuple[Shape, ...]) -> Checked:
+def _checked(loaded: LoadedProject, designs: dict[str, Design], bodies: dict[str, tuple[Shape, ...]]) -> Checked:
     """Say what the shapes of a project come to; facts and figures are those of the first."""
     from isomould.design import requests_of
     from isomould.documents.overview import kit_facts
     from isomould.family import kit_table
     from isomould.form.survey import survey
+    from isomould.project.schema import MAIN
     from isomould.sizing import size_design
 
     design = designs[MAIN]
-    sized = size_design(design, bodies)
+    sized = size_design(design, bodies[design.name])
     curves, polygons = (design.rail.curve, design.generatrix), (design.form.rail, design.form.generatrix)
     return Checked(
         design=design,

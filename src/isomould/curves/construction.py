@@ -16,7 +16,6 @@ from isomould.curves.bspline import (
     segments,
 )
 from isomould.curves.curve import PlanarCurve, join_pieces
-from isomould.curves.drawn import read_drawn
 from isomould.curves.drawn_settings import DxfSettings, RhinoSettings
 from isomould.curves.plane import Plane
 from isomould.curves.points import refuse_spatial
@@ -76,6 +75,8 @@ def draft_curve(settings: CurveSettings, base_dir: Path, plane: Plane | None, fi
         case PolylineSettings():
             return _polyline(settings, field)
         case DxfSettings() | RhinoSettings():
+            from isomould.curves.drawn import read_drawn  # whose readers take half a second to import
+
             return read_drawn(settings, base_dir, plane, field)
         case _:
             return _arch(settings, field)

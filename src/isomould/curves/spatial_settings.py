@@ -8,7 +8,6 @@ import numpy as np
 from isomould.arrays import Floats
 from isomould.curves.chains import Stroke
 from isomould.curves.construction import bspline_segments, points_of, spline_segments
-from isomould.curves.drawn import the_one_chain, trace_drawn
 from isomould.curves.drawn_settings import DrawnSettings, DxfSettings, RhinoSettings
 from isomould.curves.joining import join_tolerance
 from isomould.curves.origins import origin_of, seen_from
@@ -81,6 +80,9 @@ def _lines(points: Floats, closed: bool) -> list[Shape]:
 def _drawn(settings: DrawnSettings, base_dir: Path, field: str) -> LocalSpatialCurve:
     if settings.drawn != "world":
         _refuse_planar(f"{field}.drawn", f"a curve drawn {settings.drawn}")
+
+    from isomould.curves.drawn import the_one_chain, trace_drawn  # whose readers take half a second to import
+
     drawing = trace_drawn(settings, base_dir, field)
     refuse_wild(drawing.traced, field)
     origin = origin_of(drawing.traced)

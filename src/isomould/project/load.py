@@ -1,23 +1,22 @@
-"""Reading project files: TOML, overrides, and errors that name the field and the nearest key."""
+"""Reading project files: TOML, overrides, and errors that name the field and the nearest key.
 
-import difflib
+The settings of all stages are imported once there are tables to check: a slip of syntax is told at once.
+"""
+
+from __future__ import annotations
+
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from pydantic import ValidationError
-from pydantic_core import ErrorDetails
-
-from isomould.documents.info import Logo
 from isomould.errors import Gathering, Note, OutputFault, Refused, RefusedTogether
-from isomould.form.settings import WAYS
-from isomould.project.keys import is_length, known_keys
-from isomould.project.logo import read_logo
-from isomould.project.schema import Project, ShapeTable
-from isomould.project.wording import Words, word
+
+if TYPE_CHECKING:
+    from isomould.documents.info import Logo
+    from isomould.project.schema import Project, ShapeTable
 
 _LARGEST_FILE = 1_000_000
 
@@ -61,7 +60,7 @@ def load_project(path: Path, overrides: Sequence[str] = ()) -> LoadedProject:
         data = _overridden(_parse(source, path), overrides, faults)
         project = faults.run(validate, data, path.name)
         shapes = faults.run(lambda: _shapes(data, project.value, path.name))
-        logo = faults.run(lambda: read_logo(folder, project.value.project.logo))
+        logo = faults.run(lambda: _logo(folder, project.value))
     return LoadedProject(project.value, folder, source, shapes.value, logo.value, _unit_notes(overrides, data))
 
 
@@ -98,7 +97,12 @@ def _overridden(data: Mapping[str, Any], overrides: Sequence[str], faults: Gathe
 def _without_rivals(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     """Take out the other ways to divide a curve if a change says how to."""
     path = key.split(".")
-    if len(path) < 3 or path[1] != "divide" or path[2] not in WAYS:
+    if len(path) < 3 or path[1] != "divide":
+        return data
+
+    from isomould.form.settings import WAYS
+
+    if path[2] not in WAYS:
         return data
     table = data.get(path[0])
     divide = cast("Mapping[str, Any]", table).get("divide") if isinstance(table, Mapping) else None
@@ -110,6 +114,11 @@ def _without_rivals(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 def _unit_notes(overrides: Sequence[str], data: Mapping[str, Any]) -> tuple[Note, ...]:
     """Say what bare numbers were taken for in the place of lengths."""
+    if not overrides:
+        return ()
+
+    from isomould.project.keys import is_length
+
     pairs = [(key.strip(), text.strip()) for key, _, text in (change.partition("=") for change in overrides)]
     return tuple(
         Note("W-SET-UNIT", f"--set {key}", f'{text} was taken for {text} mm; other lengths name their unit: "{text} m"')
@@ -120,6 +129,12 @@ def _unit_notes(overrides: Sequence[str], data: Mapping[str, Any]) -> tuple[Note
 
 _BARE = re.compile(r"[+-]?[0-9][0-9_.]*(?:[eE][+-]?[0-9]+)?")
 """A number without a unit."""
+
+
+def _logo(folder: Path, project: Project) -> Logo | None:
+    from isomould.project.logo import read_logo
+
+    return read_logo(folder, project.project.logo)
 
 
 def _shapes(data: Mapping[str, Any], project: Project, name: str) -> tuple[tuple[str, Project], ...]:
@@ -142,11 +157,16 @@ def _reshaped(data: Mapping[str, Any], shape: ShapeTable) -> dict[str, Any]:
 
 def validate(data: Mapping[str, Any], name: str) -> Project:
     """Check the tables of a project and give the typed value; `name` is the file's, for errors."""
+    from pydantic import ValidationError
+
+    from isomould.project.schema import Project
+
     try:
         return Project.model_validate(data)
     except ValidationError as error:
-        found = [(each, words) for each in error.errors() for words in _describe(each, data)]
-        refusals = [Refused("E-PROJECT", f"{name}: {_field(each, data)}", *words) for each, words in found]
+        from isomould.project.findings import describe
+
+        refusals = [Refused("E-PROJECT", f"{name}: {field}", *words) for field, words in describe(error, data)]
     raise RefusedTogether(refusals) if len(refusals) > 1 else refusals[0]
 
 
@@ -216,46 +236,3 @@ def with_value(data: Mapping[str, Any], key: str, value: object) -> dict[str, An
     if not isinstance(inner, Mapping):
         raise Refused("E-SET", f"--set {key}", f"{table} is a value", "a table", "Check the key.")
     return {**data, table: with_value(cast("Mapping[str, Any]", inner), rest, value)}
-
-
-def _field(detail: ErrorDetails, data: Mapping[str, Any]) -> str:
-    """Name the field that one of pydantic's findings is about."""
-    path, _ = _locate(detail["loc"], data, lost=detail["type"] == "missing")
-    return ".".join(path) or "project file"
-
-
-def _describe(detail: ErrorDetails, data: Mapping[str, Any]) -> list[Words]:
-    """Say value found, limit and way out of one of pydantic's findings, which may be several in one."""
-    path, siblings = _locate(detail["loc"], data, lost=detail["type"] == "missing")
-    if detail["type"] == "extra_forbidden":
-        known = known_keys(path[:-1], data)
-        near = difflib.get_close_matches(path[-1], known, 1, 0.5)
-        if path[-1] in known_keys(path[:-1]):
-            limit = f"one of {', '.join(known)}"
-            return [Words("a key of another kind of this table", limit, "Remove it, or change the kind.")]
-        hint = f"Did you mean {near[0]!r}?" if near else "Remove it or see docs/project-file.md for the keys."
-        return [Words("unknown key", f"one of {', '.join(known)}", hint)]
-    if detail["type"] == "missing":
-        given = ", ".join(siblings) or "empty"
-        return [Words("missing", "required", f"Add it to {'.'.join(path[:-1]) or 'the file'} ({given} given).")]
-    return word(detail)
-
-
-def _locate(location: Sequence[str | int], data: Mapping[str, Any], lost: bool) -> tuple[list[str], list[str]]:
-    """Path of a finding, a lost key among them, without pydantic's names for members of unions; keys beside it."""
-    path: list[str] = []
-    place: Any = data
-    siblings: list[str] = []
-    for depth, part in enumerate(location):
-        last = depth == len(location) - 1
-        here = isinstance(place, dict) and (part in place or (last and lost))
-        if here or (isinstance(part, int) and isinstance(place, list)):
-            siblings = [str(key) for key in place] if isinstance(place, dict) else []
-            path.append(str(part))
-            place = place.get(part) if isinstance(place, dict) else _item(place, int(part))
-    return path, siblings
-
-
-def _item(values: list[Any], number: int) -> Any:
-    """Item of a list, None beyond its end: a list that is too short is itself the finding."""
-    return values[number] if number < len(values) else None
