@@ -48,17 +48,24 @@ def test_the_help_page_names_every_command_by_its_own_words():
 
 
 @pytest.mark.parametrize("verb", [["check"], ["build"], ["compare"]])
-def test_files_refused_for_their_syntax_load_no_numerics(tmp_path, verb):
+def test_files_refused_for_their_syntax_load_no_library(tmp_path, verb):
     (tmp_path / "broken.toml").write_text("rail = ")
     code, loaded = loaded_by(*verb, "broken.toml", folder=tmp_path)
-    assert (code, loaded & NUMERICS) == (2, set())
+    assert (code, loaded & LIBRARIES) == (2, set())
 
 
-@pytest.mark.parametrize("verb", [["schedule"], ["draw", "--out", "a.svg"]])
+@pytest.mark.parametrize("verb", [["build"], ["schedule"], ["draw", "--out", "a.svg"]])
 def test_files_refused_for_their_keys_load_no_numerics(tmp_path, project_file, verb):
     project_file(changed(SMALL, panels={"gapp": 3}))
     code, loaded = loaded_by(*verb, "project.toml", folder=tmp_path)
     assert (code, loaded & NUMERICS) == (2, set())
+
+
+def test_curves_by_formula_are_tried_without_readers_of_drawings(tmp_path, project_file):
+    """The curves of a file with wrong keys are tried in the same run, so that all its faults are told at once."""
+    project_file(changed(SMALL, panels={"gapp": 3}))
+    code, loaded = loaded_by("check", "project.toml", folder=tmp_path)
+    assert (code, loaded & (LIBRARIES - {"numpy", "scipy", "shapely", "manifold3d", "pydantic"})) == (2, set())
 
 
 @pytest.mark.parametrize("change", [{"nodes": {"drum_diameter": 30}}])
