@@ -121,8 +121,13 @@ def read_loops(path: Path, choice: LayerChoice) -> DrawnLoops:
 
 def _outer_layer(layers: Iterable[LayerContent], asked: str | None, field: str) -> tuple[str, tuple[Note, ...]]:
     """Give the layer of the outline: the one that is asked for, CUT, or the only one with curves."""
+    layers = list(layers)
     drawn = [layer.name for layer in layers if _CURVES & {*layer.kinds} and not layer.state]
     named = {name.casefold(): name for name in drawn}
+    if asked is None and len(drawn) > 1 and all(layer.name.casefold() != OUTER.casefold() for layer in layers):
+        found = f"nothing on layer {OUTER!r}, but curves on {listed([repr(name) for name in drawn])}"
+        way_out = "Give --layer NAME for the outlines, and --inner-layer NAME for each layer of holes."
+        raise Refused("E-DXF-LAYER", f"{field}: layer", found, "a layer of outlines that is known", way_out)
     wanted = asked or OUTER
     if asked is not None or wanted.casefold() in named or len(drawn) != 1:
         return named.get(wanted.casefold(), wanted), ()
