@@ -14,13 +14,15 @@ Graded = tuple[Member, Material]
 def keep_grades_apart(members: Sequence[Graded], stock: StockSettings) -> tuple[tuple[Member, ...], StockSettings]:
     """Name the sections of members and bars with their grade, where a list or its stock has several.
 
-    A section of one grade in the list, and of none in the stock, keeps its name.
+    A section of one grade in the list, and of none in the stock, keeps its name. Names are compared without case and
+    blanks, `HEA 200` is `HEA200`, and written as the stock has them.
 
     Raises
     ------
     Refused
         E-NEST-13 if it is not known which bar is for which grade.
     """
+    members, stock = _named_alike(members, stock)
     named, bars = dict[object, str](), list[BarStock]()
     for section in dict.fromkeys(member.section for member, _ in members):
         listed = [pair for pair in members if pair[0].section == section]
@@ -39,6 +41,23 @@ def keep_grades_apart(members: Sequence[Graded], stock: StockSettings) -> tuple[
             bars += [bar.model_copy(update={"section": name}) for bar in share]
     kept = tuple(replace(member, section=named.get(member.id, member.section)) for member, _ in members)
     return kept, stock.model_copy(update={"bars": tuple(bars)})
+
+
+def _named_alike(members: Sequence[Graded], stock: StockSettings) -> tuple[list[Graded], StockSettings]:
+    """Give every section one name: the first that a bar has, else a member."""
+    written = [*(bar.section for bar in stock.bars), *(member.section for member, _ in members)]
+    names = {_compared(section): section for section in reversed(written)}
+    bars = tuple(bar.model_copy(update={"section": names[_compared(bar.section)]}) for bar in stock.bars)
+    alike = [(replace(member, section=names[_compared(member.section)]), grade) for member, grade in members]
+    return alike, stock.model_copy(update={"bars": bars})
+
+
+def _compared(section: str) -> str:
+    """Give what is compared of a section: no case, no blanks, one sign between sizes (50x3, 50*3)."""
+    return "".join(section.casefold().split()).translate(_SIGNS)
+
+
+_SIGNS = str.maketrans("×*", "xx")
 
 
 def _grade(pair: Graded) -> Material:
