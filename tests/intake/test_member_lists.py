@@ -111,3 +111,21 @@ def test_the_schedule_of_a_delivery_is_such_a_list(built_folder):
     assert lists_members(path)
     given, notes = read_member_list(path, STOCK)
     assert (sum(member.quantity for member in given.members), notes) == (82, ())
+
+
+def test_sections_are_compared_without_case_and_blanks(tmp_path):
+    """Two spellings in a list are cut from one stock, named as the stock has it."""
+    text = "Mark;Profile;Qty;Length\nA;HEA 200;4;5980\nB;hea200;2;3000\nC;FL200x12;1;900\n"
+    bars = [{"section": "HEA200", "length": "12 m", "quantity": 5}, {"section": "FL 200*12", "length": "6 m"}]
+    given, _ = read_member_list(write(tmp_path / "m.csv", text), {"bars": bars})
+    assert [member.section for member in given.members] == ["HEA200", "HEA200", "FL 200*12"]
+    assert [(bar.section, bar.quantity) for bar in given.stock.bars] == [("HEA200", 5), ("FL 200*12", None)]
+
+
+def test_american_lists_call_the_section_size_or_shape(tmp_path):
+    text = "Part Mark,Qty,Size,Length,Grade\nA,4,W12X26,12'-3 1/2\",A992\n"
+    path = write(tmp_path / "m.csv", text)
+    stock = {"bars": [{"section": "W12X26", "length": "40 ft"}]}
+    assert lists_members(path, None, stock)
+    (member,) = read_member_list(path, stock)[0].members
+    assert (member.section, member.length, member.quantity) == ("W12X26", 3746.5, 4)

@@ -149,6 +149,31 @@ class TestHeadings:
         with pytest.raises(Refused, match=r"'No\.' runs from 1 to 2.*--column quantity="):
             read(written(tmp_path, "Mark,No.,Length,Width\nA,1,900,700\nB,2,800,600\n"))
 
+    @pytest.mark.parametrize(
+        "heading",
+        ["No. of pcs", "Qty required", "Anzahl gesamt", "Nb pièces", "N° pièces", "Nº piezas", "N° pezzi", "Q.tà"],
+    )
+    def test_pieces_in_other_words(self, tmp_path, heading):
+        assert parts_of(written(tmp_path, f"Mark;{heading};Length;Width\nA;4;900;700\n")) == [("A", 4, 900, 700)]
+
+    def test_a_heading_that_may_count_pieces_is_never_one_a_row(self, tmp_path):
+        path = written(tmp_path, "Mark,Qty per flat,Length,Width\nA,4,900,700\n")
+        with pytest.raises(Refused, match=r"'Qty per flat', which may count pieces.*--column quantity='Qty per flat'"):
+            read(path)
+        assert parts_of(path, columns={"quantity": "Qty per flat"}) == [("A", 4, 900, 700)]
+
+    def test_a_size_that_is_not_positive_is_named_as_listed(self, tmp_path):
+        with pytest.raises(Refused, match=r"line 2: length: -900 mm\. Limit: greater than zero"):
+            read(written(tmp_path, "Mark,Qty,Length,Width\nA,1,-900,700\n"))
+        with pytest.raises(Refused, match=r"no size, in columns Mark, Qty, Diameter"):
+            read(written(tmp_path, "Mark,Qty,Diameter\nA,1,700\n"))
+
+    def test_glass_is_a_mark_beside_a_make_up(self, tmp_path):
+        (one,) = read(written(tmp_path, "Vetro;Pz;L;H;Composizione\nV1;2;1250;2100;44.2\n")).instance.parts
+        assert (one.id, one.material.material) == ("V1", "44.2")
+        (one,) = read(written(tmp_path, "Pos;Stk;B;H;Glas\n7;2;1250;2100;ESG 8\n")).instance.parts
+        assert (one.id, one.material.material) == ("7", "ESG 8")
+
     def test_names_that_repeat_get_numbers_and_marks_are_refused(self, tmp_path):
         given_ = read(written(tmp_path, "Name,Qty,Length,Width\nSide,1,900,700\nSide,2,800,600\n,1,70,60\n"))
         assert [part.id for part in given_.instance.parts] == ["Side", "Side (2)", "3"]
@@ -335,3 +360,39 @@ def test_a_profile_with_a_width_is_cut_from_bars_where_the_stock_has_bars_alone(
     assert lists_members(path, None, BARS)
     assert not lists_members(path, None, {**BARS, **STOCK})
     assert not lists_members(path)
+
+
+class TestPlates:
+    """Steel lists name plates as sections: plates of two thicknesses never share a sheet."""
+
+    def test_the_thickness_is_in_the_section(self, tmp_path):
+        text = "Mark;Profile;Material;No.;Length;Width\nP1;{};S355;4;1200;200\nP2;PL 12*150;S355;2;800;150\n"
+        for section, thickness in (("PL10*200", 10), ("FL 200x12,5", 12.5), ("Bl. 8", 8), ("PL1/2x12", 12.7)):
+            given_ = read(written(tmp_path, text.format(section)))
+            assert [part.material.thickness for part in given_.instance.parts] == [thickness, 12]
+            assert "W-PART-SECTION" in codes(given_)
+        with pytest.raises(Refused, match=r"line 2: section: 'HEA200'.*plates such as PL10\*200"):
+            read(written(tmp_path, text.format("HEA200")))
+
+    def test_a_column_of_thicknesses_comes_first_and_other_words_are_not_read(self, tmp_path):
+        (one,) = read(written(tmp_path, "Mark,Profile,Thk,Qty,Length,Width\nA,PL10,12,1,900,700\n")).instance.parts
+        assert one.material.thickness == 12
+        given_ = read(written(tmp_path, "Mark,Size,Qty,Length,Width\nA,900 x 700,1,900,700\n"))
+        assert given_.instance.parts[0].material.thickness is None
+        assert "not read: the section of parts, such as '900 x 700'" in [note.text for note in given_.notes]
+
+
+def test_lists_on_two_sheets_of_a_workbook_are_refused(tmp_path):
+    book = openpyxl.Workbook()
+    book.active.append(["Project", "4711"])
+    rows = [["Mark", "Qty", "Length", "Width"], ["A", 2, 900, 400]]
+    for name in ("Doors", "Walls"):
+        sheet = book.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+    book.save(tmp_path / "two.xlsx")
+    with pytest.raises(Refused, match=r"lists on the sheets 'Doors', 'Walls'.*one list in a workbook"):
+        read(tmp_path / "two.xlsx")
+    del book["Walls"]
+    book.save(tmp_path / "one.xlsx")
+    assert parts_of(tmp_path / "one.xlsx") == [("A", 2, 900, 400)]

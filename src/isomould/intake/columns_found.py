@@ -13,6 +13,9 @@ _FARTHEST = 60
 _UNSURE = 3
 """Rank of words that number rows, or name parts, rather than mark them."""
 
+_SIZES = {"length", "width", "height", "section"}
+"""What lists of parts and members say; two of them make a list."""
+
 _SLOPES = {"b", "h", "ol", "orr"}
 """Letters that speak of a trapezoid where there is a column a, and else of width and height."""
 
@@ -45,7 +48,8 @@ def find_heading(ways: Sequence[Rows], known: frozenset[str], asked: Mapping[str
     Raises
     ------
     Refused
-        E-NEST-11: no such row, a heading asked for that is not there, two columns for one thing.
+        E-NEST-11: no such row, a heading asked for that is not there, two columns for one thing, lists on several
+        sheets of a workbook.
     """
     scored = [
         (len(_columns(list(map(read_heading, cells)), known, asked)), way, k)
@@ -59,6 +63,7 @@ def find_heading(ways: Sequence[Rows], known: frozenset[str], asked: Mapping[str
         found = f"no heading that is known; the first line has {', '.join(seen[:12]) or 'nothing'}"
         limit = "a row with headings such as id, quantity, length, width"
         refuse(file, found, limit, "Name the columns, or say --column length=HEADING.")
+    _refuse_rivals(way, ways, file)
     line, cells = way.rows[k]
     headings, rows = tuple(map(read_heading, cells)), tuple(way.rows[k + 1 :])
     field = f"{file}: line {line}"
@@ -68,6 +73,19 @@ def find_heading(ways: Sequence[Rows], known: frozenset[str], asked: Mapping[str
     columns = _settled(columns, asked, headings, rows, field)
     ranks = {meaning: means(headings[at].name).get(meaning, 0) for meaning, at in columns.items()}
     return Found(headings, columns, ranks, line, tuple(way.rows[:k]), rows, way.separator)
+
+
+def _refuse_rivals(chosen: Rows, ways: Sequence[Rows], file: str) -> None:
+    """Refuse a workbook with lists on several sheets: one alone would be cut."""
+    rivals = [way.sheet for way in ways if way.sheet != chosen.sheet and _lists_sizes(way)]
+    if rivals:
+        found = f"lists on the sheets {', '.join(map(repr, [chosen.sheet, *rivals]))}"
+        refuse(file, found, "one list in a workbook", "Save each as a file of its own, or put them below each other.")
+
+
+def _lists_sizes(way: Rows) -> bool:
+    named = [_columns(list(map(read_heading, cells)), all_meanings(), {}) for _, cells in way.rows[:_FARTHEST]]
+    return any(len(_SIZES & {*columns}) > 1 for columns in named)
 
 
 def _settled(

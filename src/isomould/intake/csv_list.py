@@ -12,10 +12,14 @@ from isomould.intake.part_rows import refuse, show
 from isomould.intake.rows_left_out import check_totals, sort_rows
 from isomould.intake.table_rows import read_rows
 from isomould.intake.table_words import Line, Reading, Words
-from isomould.intake.vocabulary import all_meanings, says
+from isomould.intake.vocabulary import all_meanings, means, says
 
 _NAMES_REPEAT = 2
 """Rank from which marks are names that may be there twice: labels, numbers of positions, descriptions."""
+
+
+_UNSURE_COUNT = 2
+"""Rank from which a column may be something else than a number of pieces."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +90,8 @@ def read_sheet(path: Path, words: Words, asked: Reading | None = None) -> Sheet:
     style = find_style(found, lines, units, asked, file)
     kept, dropped = _wanted(lines, style.signs, file)
     named, names = _named(kept, found, file)
+    if "quantity" not in asked.columns:
+        _refuse_half_known(found, file)
     counted, counts = _counted(named, found, file)
     totals = check_totals(found, kinds.totals, lines, style.signs, file)
     told = (*notes, *kinds.notes, *totals, *dropped, *names, *counts, *style.notes, *_unread(found, file))
@@ -168,6 +174,18 @@ def _counted(lines: Sequence[Line], found: Found, file: str) -> tuple[tuple[Line
     counted = tuple(Line({**line.cells, "quantity": "1"}, line.field) for line in lines)
     text = f"no column of quantities: one piece a row, {len(lines)} in all"
     return counted, (Note("W-PART-QUANTITY", file, text),)
+
+
+def _refuse_half_known(found: Found, file: str) -> None:
+    """Refuse to count one piece a row where a heading that is not known speaks of pieces."""
+    if found.ranks.get("quantity", _UNSURE_COUNT) < _UNSURE_COUNT:
+        return
+    used = set(found.columns.values())
+    for at, heading in enumerate(found.headings):
+        words = [word for word in heading.name.split() if means(word).get("quantity") == 1]
+        if at not in used and words:
+            way_out = f"Say --column quantity={heading.text!r}, or take the column out: every row is one piece then."
+            refuse(file, f"{heading.text!r}, which may count pieces", "a heading such as Quantity, Qty, Pcs", way_out)
 
 
 def _unread(found: Found, file: str) -> tuple[Note, ...]:

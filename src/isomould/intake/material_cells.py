@@ -4,6 +4,7 @@ from isomould.errors import Note
 from isomould.intake.csv_list import Sheet
 from isomould.intake.instance import Instance
 from isomould.intake.part_rows import refuse, show
+from isomould.intake.plate_sections import plate_thickness
 from isomould.intake.table_words import Line
 from isomould.intake.vocabulary import says
 
@@ -11,8 +12,10 @@ from isomould.intake.vocabulary import says
 def material_cells(sheet: Sheet, line: Line) -> dict[str, str | float]:
     """Give what a row says of its material; nothing of cells that are blank."""
     words = {name: line.cells[name] for name in ("material", "grade") if line.cells.get(name)}
-    thickness = {"thickness": sheet.number(line, "thickness")} if line.cells.get("thickness") else {}
-    return {**words, **thickness}
+    if line.cells.get("thickness"):
+        return {**words, "thickness": sheet.number(line, "thickness")}
+    plate = plate_thickness(line.cells.get("section", ""))
+    return {**words, "thickness": plate} if plate is not None else {**words}
 
 
 def grain_cell(line: Line, across: str, up: str) -> dict[str, str]:

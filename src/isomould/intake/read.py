@@ -15,6 +15,7 @@ from isomould.intake.numbers import to_count
 from isomould.intake.part_layers import LayerChoice
 from isomould.intake.part_list import PartList
 from isomould.intake.part_rows import TRAPEZOID, Row, read_parts, refuse
+from isomould.intake.plate_sections import refuse_other_sections, section_note
 from isomould.intake.rectangles import Sides, box_note, names_of, rectangle, sides_of
 from isomould.intake.table_rows import is_table
 from isomould.intake.table_words import PARTS, Line, Reading
@@ -104,12 +105,13 @@ def _files(sheet: Sheet, folder: Path) -> Iterator[tuple[Line, Path]]:
 
 def _made(name: str, sheet: Sheet, files: Mapping[str, Path], asked: Asked) -> PartList:
     """Make the parts of a table, some of them drawn; `files` by the field of their line."""
+    refuse_other_sections(sheet)
     sides, stock = sides_of(sheet), make_stock(asked.stock, sheet.file)
     held = {line.field for line in sheet.lines if line.field in files and grain_cell(line, *_DRAWN)}
     drawn = {key: _drawing(file, asked, stock, held=key in held) for key, file in files.items()}
     rows = [row for line in sheet.lines for row in _rows(sheet, line, drawn.get(line.field), sides)]
     instance = Instance(name, read_parts(rows, sheet.file), stock)
-    notes = (*sheet.notes, *box_note(sheet, sides), *grain_note(instance))
+    notes = (*sheet.notes, *box_note(sheet, sides), *section_note(sheet), *grain_note(instance))
     return with_drawings(instance, {line.cells["id"]: drawn.get(line.field) for line in sheet.lines}, notes)
 
 
@@ -158,7 +160,7 @@ def _shape(sheet: Sheet, line: Line, sides: Sides | None) -> dict[str, Any]:
 def _refuse_shapeless(sheet: Sheet, line: Line) -> NoReturn:
     """Say what was found of a shape, and what is missing."""
     sizes = [name for name in ("length", "width", "height") if name in line.cells]
-    found = f"{sizes[0] if sizes else 'no size'} alone, in columns {', '.join(sheet.headings)}"
+    found = f"{f'{sizes[0]} alone' if sizes else 'no size'}, in columns {', '.join(sheet.headings)}"
     limit = "two of length, width and height, or a, b, h, ol and orr, or points, or files"
     way_out = f"Say --column {'width' if 'length' in sizes else 'length'}=HEADING, or name the column so."
     refuse(sheet.file, found, limit, way_out)

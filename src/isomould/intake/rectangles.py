@@ -66,6 +66,9 @@ def _sizes(sheet: Sheet, line: Line, sides: Sides) -> Mapping[str, float]:
     if blank:
         refuse(line.field, f"no {', no '.join(blank)}", f"{_and(names)} of every part")
     sizes = {name: sheet.number(line, name) for name in names}
+    for name, size in sizes.items():
+        if size <= 0:
+            refuse(f"{line.field}: {name}", f"{size:g} mm", "greater than zero")
     if not sides.boxed:
         return sizes
     least = min(reversed(names), key=lambda name: sizes[name])

@@ -4,6 +4,7 @@ import codecs
 import csv
 import io
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from zipfile import BadZipFile
@@ -37,10 +38,11 @@ Row = tuple[int, list[str]]
 
 @dataclass(frozen=True)
 class Rows:
-    """One way to read a file: its rows that hold anything, and what separates their cells."""
+    """One way to read a file: its rows that hold anything, what separates their cells, and the sheet of a workbook."""
 
     rows: list[Row]
     separator: str
+    sheet: str = ""
 
 
 def is_table(path: Path) -> bool:
@@ -168,15 +170,20 @@ def _read_book(path: Path) -> list[Rows]:
     except (BadZipFile, InvalidFileException, KeyError, ValueError) as fault:
         refuse(str(path), f"no workbook: {fault}", "an Excel file (.xlsx)", "Save it again as .xlsx or CSV.")
     try:
-        sheets = [sheet.iter_rows(values_only=True) for sheet in book.worksheets]
-        tables = [[(number, [_cell(value) for value in row]) for number, row in enumerate(rows, 1)] for rows in sheets]
+        sheets = [Rows(_cells(sheet.iter_rows(values_only=True)), ",", sheet.title) for sheet in book.worksheets]
     finally:
         book.close()
-    filled = [[row for row in rows if any(row[1])] for rows in tables]
-    ways = [Rows(rows, ",") for rows in filled if rows]
+    ways = [way for way in sheets if way.rows]
     if not ways:
         refuse(str(path), "an empty workbook", "a sheet with a table")
     return ways
+
+
+def _cells(rows: Iterable[Iterable[object]]) -> list[Row]:
+    """Give the rows that hold anything."""
+    numbered = enumerate(rows, start=1)
+    texts = [(number, [_cell(value) for value in row]) for number, row in numbered]
+    return [row for row in texts if any(row[1])]
 
 
 def _cell(value: object) -> str:

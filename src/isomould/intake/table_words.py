@@ -22,7 +22,8 @@ class Words:
 
 _COMMON = ("id", "quantity", "material", "grade", "enabled")
 PARTS = Words(
-    (*TRAPEZOID, "length", "width", "height", "thickness"), (*_COMMON, "row", "points", "files", "grain", "turn")
+    (*TRAPEZOID, "length", "width", "height", "thickness"),
+    (*_COMMON, "row", "points", "files", "grain", "turn", "section"),
 )
 MEMBERS = Words(("length", "depth"), (*_COMMON, "section", "end_angle_start", "end_angle_end"))
 
