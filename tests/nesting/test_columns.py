@@ -76,6 +76,24 @@ def test_best_stack_of_heights_by_hand() -> None:
     assert sorted(stacks.trace(0)) == [1, 2]
 
 
+@pytest.mark.parametrize("lowest", [1, 2, 40])
+def test_best_stacks_are_those_of_a_plain_knapsack(lowest: int) -> None:
+    """Low items are compared all at once, high ones one after another: both against one level and item at a time."""
+    chance = np.random.default_rng(lowest)
+    heights = lowest + np.sort(chance.choice(100, 60, replace=False))
+    heights[0], room = lowest, 300
+    worth = np.round(heights * chance.uniform(0.8, 1.0, 60), 6)
+    best = [0.0]
+    for level in range(1, room + 1):
+        pairs = zip(heights.tolist(), worth.tolist(), strict=True)
+        best.append(max([best[-1], *(best[level - h] + w for h, w in pairs if h <= level)]))
+    stacks = stack_up(heights, worth[:, None], room)
+    np.testing.assert_allclose(stacks.worth[:, 0], best, atol=1e-9)
+    found = stacks.trace(0)
+    assert heights[found].sum() <= room
+    assert worth[found].sum() == pytest.approx(best[-1])
+
+
 def test_part_that_fits_only_the_dear_size_bounds_price_and_number() -> None:
     """Three long parts want a long sheet each, at 10, with 0.3 left over; nine square metres nine short ones at 1."""
     long, short = (SheetStock(name=n, width=w, height=1000, price=p) for n, w, p in (("l", 3000, 10), ("s", 1000, 1)))

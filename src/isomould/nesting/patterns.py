@@ -100,14 +100,30 @@ def stack_up(heights: Ints, worth: Floats, room: int) -> Stacks:
 def _put_on_top(heights: Ints, worth: Floats, best: Floats, last: Ints, levels: tuple[int, int]) -> None:
     """Find the best item on top at some levels, in place."""
     low, high = levels
-    for item, height in enumerate(heights.tolist()):
+    fitting = int(np.searchsorted(heights, high - 1, side="right"))
+    # Low items leave few levels at a time: then it takes less time to compare all items at once.
+    if (high - low) * best.shape[1] < fitting:
+        _compare(heights[:fitting], worth[:fitting], best, last, levels)
+        return
+    for item, height in enumerate(heights[:fitting].tolist()):
         start = max(low, height)
-        if start >= high:
-            return
         with_it = best[start - height : high - height] + worth[item]
         better = with_it > best[start:high] + NOISE
         np.copyto(best[start:high], with_it, where=better)
         np.copyto(last[start:high], item, where=better)
+
+
+def _compare(heights: Ints, worth: Floats, best: Floats, last: Ints, levels: tuple[int, int]) -> None:
+    """Do the same with all items (k,) at once, in arrays of (k, levels, cases)."""
+    low, high = levels
+    below = np.arange(low, high) - heights[:, None]
+    with_it = best[np.maximum(below, 0)] + worth[:, None]
+    with_it[below < 0] = -np.inf
+    most = with_it.max(axis=0)
+    first = np.argmax(with_it >= most - NOISE, axis=0)
+    better = most > best[low:high] + NOISE
+    np.copyto(best[low:high], most, where=better)
+    np.copyto(last[low:high], first, where=better)
 
 
 def find_sheets(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, _: Crew) -> Found:
