@@ -396,3 +396,38 @@ def test_lists_on_two_sheets_of_a_workbook_are_refused(tmp_path):
     del book["Walls"]
     book.save(tmp_path / "one.xlsx")
     assert parts_of(tmp_path / "one.xlsx") == [("A", 2, 900, 400)]
+
+
+class TestUnitsBesideNumbers:
+    def test_a_column_of_units(self, tmp_path):
+        text = "Part;Copies;Length;Width;Unit\nA;2;90,5;40;cm\nB;1;35;16;in\nC;1;9 mm;8;\n"
+        with pytest.raises(Refused, match=r"line 4: width: '8' without a unit"):
+            read(written(tmp_path, text))
+        assert parts_of(written(tmp_path, text), units="mm") == [
+            ("A", 2, 905, 400),
+            ("B", 1, 889, 406.4),
+            ("C", 1, 9, 8),
+        ]
+        headed = "Part;Qty;Length mm;Width;Unit\nA;2;900;40;cm\n"
+        assert parts_of(written(tmp_path, headed)) == [("A", 2, 900, 400)]
+
+    def test_a_unit_of_pieces_is_none_of_lengths(self, tmp_path):
+        assert parts_of(written(tmp_path, "Part;Qty;Unit;Length;Width\nA;2;pcs;900;400\n")) == [("A", 2, 900, 400)]
+
+    @pytest.mark.parametrize(
+        ("title", "factor"),
+        [("Units: inches", 25.4), ("Cut list (all dimensions in cm)", 10), ("Alle Maße in cm", 10), ("Maße [cm]", 10),
+         ("Cotes en cm", 10), ("Project M, sizes in stock", 1), ("Size M", 1), ("Units: cm; dimensions in mm", 1)],
+    )  # fmt: skip
+    def test_a_unit_in_a_title(self, tmp_path, title, factor):
+        path = written(tmp_path, f"{title}\nMark;Qty;Length;Width\nA;2;90;40\n")
+        assert parts_of(path)[0][2:] == pytest.approx((90 * factor, 40 * factor))
+        assert parts_of(path, units="mm")[0][2:] == (90, 40)
+        said = any("as a title before the heading says" in note.text for note in read(path).notes)
+        assert said == (factor != 1)
+
+
+def test_a_second_width_is_no_rectangle(tmp_path):
+    path = written(tmp_path, "Mark;Stk;Länge;Breite;Breite 2\nA;2;1200;700;500\n")
+    with pytest.raises(Refused, match=r"'Breite 2' beside a width.*a, b, h, ol and orr"):
+        read(path)

@@ -12,6 +12,7 @@ from isomould.intake.part_rows import refuse, show
 from isomould.intake.rows_left_out import check_totals, sort_rows
 from isomould.intake.table_rows import read_rows
 from isomould.intake.table_words import Line, Reading, Words
+from isomould.intake.units_said import with_units
 from isomould.intake.vocabulary import all_meanings, means, says
 
 _NAMES_REPEAT = 2
@@ -85,6 +86,7 @@ def read_sheet(path: Path, words: Words, asked: Reading | None = None) -> Sheet:
     units, rows = unit_row(found)
     kinds = sort_rows(found, rows, words.lengths, file)
     lines = [Line(_cells(found, cells), f"{file}: line {number}") for number, cells in kinds.parts]
+    lines = with_units(lines, [name for name in words.lengths if _has_no_unit(found, name)])
     if not lines:
         refuse(file, "a heading without rows", "at least one part")
     style = find_style(found, lines, units, asked, file)
@@ -92,6 +94,7 @@ def read_sheet(path: Path, words: Words, asked: Reading | None = None) -> Sheet:
     named, names = _named(kept, found, file)
     if "quantity" not in asked.columns:
         _refuse_half_known(found, file)
+    _refuse_second_sizes(found, file)
     counted, counts = _counted(named, found, file)
     totals = check_totals(found, kinds.totals, lines, style.signs, file)
     told = (*notes, *kinds.notes, *totals, *dropped, *names, *counts, *style.notes, *_unread(found, file))
@@ -106,6 +109,10 @@ def heading_names(path: Path, asked: Reading) -> set[str]:
 
 def _cells(found: Found, cells: Sequence[str]) -> dict[str, str]:
     return {meaning: cells[at] for meaning, at in found.columns.items()}
+
+
+def _has_no_unit(found: Found, name: str) -> bool:
+    return name in found.columns and found.headings[found.columns[name]].unit is None
 
 
 # --- rows and marks
@@ -186,6 +193,17 @@ def _refuse_half_known(found: Found, file: str) -> None:
         if at not in used and words:
             way_out = f"Say --column quantity={heading.text!r}, or take the column out: every row is one piece then."
             refuse(file, f"{heading.text!r}, which may count pieces", "a heading such as Quantity, Qty, Pcs", way_out)
+
+
+def _refuse_second_sizes(found: Found, file: str) -> None:
+    """Refuse a second length or width, as of parts that taper: a rectangle would be another part."""
+    used = set(found.columns.values())
+    for at, heading in enumerate(found.headings):
+        word, _, number = heading.name.rpartition(" ")
+        sizes = [name for name in ("length", "width", "height") if name in found.columns and name in means(word)]
+        if at not in used and number.isdigit() and sizes:
+            way_out = "Give the parts as a, b, h, ol and orr, as points or drawings; or take the column out."
+            refuse(file, f"{heading.text!r} beside a {sizes[0]}", "one column for every size of a rectangle", way_out)
 
 
 def _unread(found: Found, file: str) -> tuple[Note, ...]:

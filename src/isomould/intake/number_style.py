@@ -9,6 +9,7 @@ from isomould.intake.numbers import Signs, find_signs, unit_in
 from isomould.intake.part_rows import TRAPEZOID, refuse
 from isomould.intake.table_rows import Row
 from isomould.intake.table_words import Line, Reading
+from isomould.intake.units_said import unit_of_titles
 from isomould.units import MM_PER_UNIT, UNIT_WORDS, LengthUnit
 
 _LENGTHS = (*TRAPEZOID, "length", "width", "height", "thickness", "depth")
@@ -62,12 +63,13 @@ def find_style(
     found_units: list[LengthUnit | None] = [unit_in(line.cells[name], signs) for line, name in cells]
     own: set[LengthUnit] = {unit for unit in found_units if unit}
     shared = next(iter(own)) if len(own) == 1 else None
-    fallback: LengthUnit = asked.units or shared or "mm"
+    titled = unit_of_titles(found.before)
+    fallback: LengthUnit = asked.units or shared or titled or "mm"
     bare = [(line, name) for line, name in cells if name not in said and not unit_in(line.cells[name], signs)]
     if not asked.units:
-        _refuse_bare(bare, own)
+        _refuse_bare(bare, own, titled)
     foreign = bool(bare) and not asked.units and bool({name for _, name in bare} - _OURS)
-    notes = (_note(file, shared),) if foreign else ()
+    notes = (_note(file, shared, titled),) if foreign else ()
     return NumberStyle(signs, _all_units(columns, said, fallback), notes)
 
 
@@ -107,19 +109,21 @@ def _other_numbers(found: Found) -> list[str]:
     return [cell for cell in cells if cell and not cell.strip("0123456789.,")]
 
 
-def _refuse_bare(bare: Iterable[tuple[Line, str]], own: set[LengthUnit]) -> None:
+def _refuse_bare(bare: Iterable[tuple[Line, str]], own: set[LengthUnit], titled: LengthUnit | None) -> None:
     """Refuse numbers without a unit beside several units, and fractions without any: nobody writes them of mm."""
     for line, name in bare:
         field, cell = f"{line.field}: {name}", line.cells[name]
         if len(own) > 1:
             found = f"{cell!r} without a unit, beside cells in {' and '.join(sorted(own))}"
             refuse(field, found, "a unit in every cell or heading", "Say --units for cells without one.")
-        if "/" in cell and own != {"in"}:
+        if "/" in cell and "in" not in (*own, titled):
             way_out = "Say --units in, or write the unit into the heading."
             refuse(field, f"{cell!r}, a fraction without a unit", "a unit", way_out)
 
 
-def _note(file: str, shared: LengthUnit | None) -> Note:
+def _note(file: str, shared: LengthUnit | None, titled: LengthUnit | None) -> Note:
     if shared:
         return Note("W-PART-UNITS", file, f"lengths without a unit are read in {shared}, as the others say")
+    if titled:
+        return Note("W-PART-UNITS", file, f"lengths are read in {titled}, as a title before the heading says")
     return Note("W-PART-UNITS", file, "lengths are read in mm: neither the list nor --units names a unit")

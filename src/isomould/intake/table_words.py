@@ -20,7 +20,7 @@ class Words:
         return frozenset((*self.lengths, *self.others))
 
 
-_COMMON = ("id", "quantity", "material", "grade", "enabled")
+_COMMON = ("id", "quantity", "material", "grade", "enabled", "unit")
 PARTS = Words(
     (*TRAPEZOID, "length", "width", "height", "thickness"),
     (*_COMMON, "row", "points", "files", "grain", "turn", "section"),
