@@ -144,7 +144,7 @@ REFUSED = {
     ),
     "B15 panels": (
         changed(SMALL, limits={"max_panels": 10}),
-        ("E-SIZE", "limits.max_panels", "35 panels", "10", "more coarsely"),
+        ("E-SIZE", "limits.max_panels", "at least 12 panels", "10", "more coarsely"),
     ),
     "B15 panels of caps": (
         changed(

@@ -38,11 +38,11 @@ CASES = {
     ),
     "a turning angle far too small on a loop": (
         changed(sphere(15, 30), rail={"divide": {"angle_deg": 3.6e-7}}),
-        ["E-SIZE", "1000000000 panels", "5000"],
+        ["E-SIZE", "at least 8.33e+16 panels", "5000"],
     ),
     "stations without number": (
         changed(SMALL, generatrix={"divide": {"stations": 10**9}}),
-        ["E-SIZE", "1000000000 panels"],
+        ["E-SIZE", "at least 4e+09 panels"],
     ),
     "no division": (changed(SMALL, generatrix={"divide": {}}), ["E-CURVE-DIVIDE", "generatrix.divide"]),
     "stations off the curve": (

@@ -23,7 +23,7 @@ def refuse_expected_size(rail: Curve, generatrix: Curve, requests: tuple[Request
     generatrix_edges = least_edges(generatrix, requests[1])
     if requests[1].divide.phase is not None:  # pyright: ignore[reportAttributeAccessIssue]
         generatrix_edges = _least_slopes(rail, generatrix, rail_edges)
-    refuse_size(rail_edges * generatrix_edges, requests[0].limits)
+    refuse_size(rail_edges * generatrix_edges, requests[0].limits, "at least")
 
 
 def least_edges(curve: Curve, request: Request) -> float:
