@@ -1,4 +1,5 @@
 import io
+import re
 from datetime import date
 
 import openpyxl
@@ -50,6 +51,39 @@ def read(value):
 
 def as_excel(cell):
     return {True: "yes", False: "no"}[cell] if isinstance(cell, bool) else (None if cell == "" else cell)
+
+
+FORMATS = {
+    "mm": "#,##0.0",
+    "°": "#,##0.00",
+    "m²": "#,##0.00",
+    "kg": "[>=1000]#,##0;#,##0.0",
+    "%": "#,##0.0",
+    "Price": "#,##0.00",
+}
+"""How people read numbers of a unit, or of a column."""
+
+
+def test_numbers_have_the_formats_of_their_units(live, tables):
+    """Only what is shown is shortened: `test_every_cell_holds_the_value_…` reads what is stored."""
+    seen = set()
+    for table in tables:
+        for index, column in enumerate(table.columns, start=1):
+            of = re.search(r"\((.+)\)$|^(Price)$", column.header)
+            unit = of and (of[1] or of[2])
+            if column.kind == "number" and unit in FORMATS:
+                assert live[table.title].cell(2, index).number_format == FORMATS[unit], column.name
+                seen.add(unit)
+    assert {"mm", "m²", "kg", "Price"} <= seen
+
+
+def test_figures_of_the_summary_have_the_formats_of_their_units(live):
+    sheet = live["Summary"]
+    formats = {(row[0].value, row[2].value or ""): row[1].number_format for row in sheet.iter_rows(2) if row[1].value}
+    assert formats["Greatest deviation", "mm"] == "#,##0.0"
+    totals = {unit: style for (_, unit), style in formats.items()}
+    assert totals["m²"] == "#,##0.00"
+    assert totals["kg"] == "[>=1000]#,##0;#,##0.0"
 
 
 def test_one_named_table_per_sheet_with_filters_and_frozen_header(live, tables):

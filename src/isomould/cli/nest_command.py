@@ -12,6 +12,7 @@ import click
 import isomould
 from isomould.cli.console import INTERRUPTED, catch_signals, say, warn
 from isomould.cli.options import EFFORT, Quantity
+from isomould.documents.digits import with_unit
 from isomould.errors import Note, Refused
 from isomould.intake.columns_found import column_of
 from isomould.intake.member_list import lists_members
@@ -127,7 +128,7 @@ def _worth(layout: Layout | BarLayout) -> str:
     bound = f"lower bound {layout.bound} ({layout.bound_kind})"
     if isinstance(layout, BarLayout):
         return f"{len(layout.bars)} bars, {bound}"
-    return f"{len(layout.sheets)} sheets, {bound}, yield {layout.yield_percent:.2f} %"
+    return f"{len(layout.sheets)} sheets, {bound}, yield {with_unit(layout.yield_percent, '%')}"
 
 
 def _remark(note: Note) -> None:

@@ -50,3 +50,19 @@ def with_unit(value: float, unit: str) -> str:
     ('1234.6 mm', '90.00°', '7')
     """
     return f"{shown(value, unit)}{'' if unit == '°' else ' '}{unit}".strip()
+
+
+def cell_format(unit: str, value: float | None = None) -> str:
+    """Give the format of a cell of a workbook, of a column's if there is no one value: what is stored stays as it is.
+
+    >>> cell_format("mm"), cell_format("kg"), cell_format("m²", 1e-9), cell_format("", 680.0)
+    ('#,##0.0', '[>=1000]#,##0;#,##0.0', '0.00E+00', '#,##0')
+    """
+    decimals = decimals_of(unit)
+    if value is not None and decimals is None and float(value).is_integer():
+        return "#,##0"
+    decimals = 2 if decimals is None else decimals
+    if value is not None and 0 < abs(value) < 0.5 * 10.0**-decimals:
+        return "0.00E+00"
+    plain = f"#,##0.{'0' * decimals}"
+    return f"[>={_TONNE:.0f}]#,##0;{plain}" if unit == "kg" else plain

@@ -2,7 +2,8 @@
 
 from functools import singledispatch
 
-from isomould.documents.columns import Column, per_piece
+from isomould.documents.columns import Column, per_piece, unit
+from isomould.documents.digits import cell_format
 from isomould.documents.live import Given, Here, Joint, Live, NamedCell, RateCell
 from isomould.documents.numbers import format_number
 from isomould.documents.quantities import Blanks, Matches, Products, SumIf
@@ -13,15 +14,8 @@ from isomould.documents.totals import Total
 RATE = "rate_"
 """Before the code of a rate in the name of its cell."""
 
-_NUMBER_FORMATS = {
-    "mm": "0.0",
-    "deg": "0.00",
-    "kg": "0.00",
-    "m2": "0.000",
-    "cm3": "0.0",
-    "percent": "0.0",
-    **dict.fromkeys(("quantity", "rate", "amount", "price", "cost"), "#,##0.00"),
-}
+_MONEY = frozenset(("quantity", "rate", "amount", "price", "cost"))
+"""Ends of the names of columns with two decimals: money, and what is paid for."""
 
 
 def table_name(table: Table) -> str:
@@ -138,9 +132,9 @@ def number_format(column: Column) -> str:
         return {"integer": "0"}.get(column.kind, "@")
     if column.decimals is None:
         return "0.00E+00"
-    return _NUMBER_FORMATS.get(
-        column.name.rpartition("_")[2], {2: "#,##0.00", 9: "0.0000", 12: "#,##0.###"}.get(column.decimals, "General")
-    )
+    if unit(column.name) or column.name.rpartition("_")[2] in _MONEY:
+        return cell_format(unit(column.name))
+    return {9: "0.0000", 12: "#,##0.###"}.get(column.decimals, "General")
 
 
 def _column(table: Table, column: Column) -> str:

@@ -13,6 +13,7 @@ from plotly.offline import get_plotlyjs
 
 from isomould.arrays import Floats
 from isomould.documents.charts import Chart
+from isomould.documents.digits import shown
 from isomould.documents.numbers import format_number
 from isomould.documents.report import FileRow, Report
 from isomould.documents.scene import Facets, Points, Scene, Strokes
@@ -86,7 +87,7 @@ def report_text(report: Report) -> str:
 def _sections(report: Report) -> Iterator[tuple[str, str, str]]:
     """Key, title and content."""
     yield "model", "Model", _figure("scene", scene_figure(report.scene))
-    yield "figures", "Key figures", _table("summary", report.summary)
+    yield "figures", "Key figures", _figures_table(report.summary)
     if report.notes:
         yield "notes", "Notes", _pairs([(note.code, f"{note.field}: {note.text}") for note in report.notes])
     plots = (_figure(f"chart-{k}", chart_figure(chart)) for k, chart in enumerate(report.charts))
@@ -110,11 +111,26 @@ def _pairs(pairs: Iterable[tuple[str, str]]) -> str:
     return f"<table>{rows}</table>"
 
 
+def _figures_table(summary: Table) -> str:
+    """Write the key figures with the digits of their units; the workbook keeps what was rounded away."""
+    rows = zip(*(cells(summary, column) for column in summary.columns), strict=True)
+    return _rows("summary", summary, [f"<tr>{''.join(_figure_cells(*row))}</tr>" for row in rows])
+
+
+def _figure_cells(item: Cell, value: Cell, unit: Cell) -> tuple[str, str, str]:
+    number = shown(value, str(unit or "")) if isinstance(value, int | float) else ""
+    return _cell(item), f'<td class="number">{number}</td>', _cell(unit)
+
+
 def _table(key: str, table: Table) -> str:
     """Write a table; numbers as they are, so that they read back exactly."""
-    head = "".join(f"<th>{escape(column.header)}</th>" for column in table.columns)
     rows = zip(*(cells(table, column) for column in table.columns), strict=True)
-    body = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
+    return _rows(key, table, [f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows])
+
+
+def _rows(key: str, table: Table, rows: Iterable[str]) -> str:
+    head = "".join(f"<th>{escape(column.header)}</th>" for column in table.columns)
+    body = "\n".join(rows)
     return f'<table id="{key}"><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>'
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from xlsxwriter import Workbook
 
 from isomould.documents.costs import Result
+from isomould.documents.digits import cell_format
 from isomould.documents.info import Logo, ProjectInfo
 from isomould.documents.table import Table, cells
 from isomould.documents.title_block import heading
@@ -110,11 +111,11 @@ def _figures(results: Sequence[Result], failed: int | None) -> Figures:
 def _write_summary(page: Page, totals: Sequence[Total], notes: Sequence[Note]) -> None:
     """Make the totals live, wherever they stand, show counts as such, and repeat the notes below."""
     by_item = {total.item: total for total in totals}
-    counts, measures = page.style(num_format="#,##0", align="right"), page.style(num_format="#,##0.000", align="right")
-    items, values = (cells(page.table, column) for column in page.table.columns[:2])
-    for row, (item, value) in enumerate(zip(items, values, strict=True), start=1):
+    columns = (cells(page.table, column) for column in page.table.columns)
+    for row, (item, value, unit) in enumerate(zip(*columns, strict=True), start=1):
         total = by_item.get(str(item))
-        style = counts if isinstance(value, int | float) and float(value).is_integer() else measures
+        number = value if isinstance(value, int | float) else None
+        style = page.style(num_format=cell_format(str(unit or ""), number), align="right")
         write_cell(page, (row, 1), value, style, formula(total, page.table) if total else None)
     rows = [(note.code, note.field, note.text) for note in notes]
     write_texts(page, (page.below, 0), [("Notes",), *rows] if rows else [])

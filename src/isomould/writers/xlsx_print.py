@@ -93,7 +93,7 @@ def _shown(cell: object, column: Column) -> str:
     """Give a cell about as Excel shows it; thousands are parted where the format says so."""
     if isinstance(cell, bool) or not isinstance(cell, int | float):
         return {True: "yes", False: "no", None: ""}.get(cell, str(cell))  # pyright: ignore[reportArgumentType, reportCallIssue]
-    style = number_format(column)
+    style = number_format(column).rpartition(";")[2]  # of two formats the one with more digits
     if style == "General" or "E" in style:
         return f"{cell:.6g}"
     return f"{cell:{',' if ',' in style else ''}.{len(style.partition('.')[2])}f}"
