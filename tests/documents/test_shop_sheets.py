@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from isomould.documents.shop.development import flat_faces, lay_block
 from isomould.documents.shop.labels import make_names, owners
 from isomould.documents.shop.member_sheet import MemberDrawing, member_sheet
 from isomould.documents.shop.page import SMALLEST, Arc, Line, Text
-from isomould.documents.shop.rows import schedule_rows
+from isomould.documents.shop.rows import amount_text, schedule_rows
 from isomould.documents.shop.title_block import Stationery, read_title_block
 from isomould.nesting.search import Search
 from isomould.parts.bodies import section_outline
@@ -86,7 +87,11 @@ def test_a_sheet_per_class_with_the_schedule_on_it(name, vault, books):
     assert [page.name for page in books[name].pages] == [row["mark"] for row in rows]
     for row, page in zip(rows, books[name].pages, strict=True):
         shown = texts(page)
-        assert {row["mark"], row["quantity"], row["mass_kg"], row["total_mass_kg"]} <= set(shown)
+        masses = {amount_text(name, row[name]) for name in ("mass_kg", "total_mass_kg")}
+        assert {row["mark"], row["quantity"], *masses} <= set(shown)
+        amounts = [text for before, text in pairwise(shown) if before.endswith(("(m²)", "(kg)", "(cm³)"))]
+        assert amounts
+        assert all(re.fullmatch(r"\d+(\.\d{1,2})?|0\.00\d+", text) for text in amounts)
         named = (row.get("drawing_file") or row["files"]).split(";")[-1]
         assert named == f"drawings/{name}.pdf#page={books[name].pages.index(page) + 1}"
 

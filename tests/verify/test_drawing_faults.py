@@ -118,6 +118,11 @@ def digit(column):
     return change
 
 
+def heavier(rows):
+    """Add what a sheet would show: a unit of the last digit that people read."""
+    rows[0]["mass_kg"] = f"{float(rows[0]['mass_kg']) + 0.1:.3f}"
+
+
 def other_location(rows):
     rows[0]["location"] += "-A"
 
@@ -127,7 +132,7 @@ SEEDS = {
     "no sheet named": ("V45", edit_table("panels", lambda rows: rows[0].update(files="panels/P01.dxf"))),
     "mark changed on its sheet": ("V45", edit_pdf("nodes", shown("N03", "N04"))),
     "quantity": ("V45b", edit_table("members", one_more)),
-    "a digit of a mass in the schedule": ("V45b", edit_table("nodes", digit("mass_kg"))),
+    "a digit of a mass in the schedule": ("V45b", edit_table("nodes", heavier)),
     "a digit of a height in the schedule": ("V45b", edit_table("panels", digit("height_mm"))),
     "a digit of a dimension on the drawing": ("V45b", edit_pdf("members", cut_length)),
     "a digit of a diagonal in its view": ("V45b", second("panels", "diagonal_2_mm")),

@@ -10,7 +10,7 @@ from isomould.documents.numbers import format_number
 from isomould.documents.shop.font import drawable
 from isomould.documents.shop.grid import grid, grid_size
 from isomould.documents.shop.page import NORMAL, SMALL, SMALLEST, Book, Item, Page, Text, paper_size
-from isomould.documents.shop.rows import Row, length_text, schedule_rows
+from isomould.documents.shop.rows import Row, amount_text, length_text, schedule_rows
 from isomould.documents.shop.sheet_view import SheetView, sheet_items
 from isomould.documents.shop.title_block import Stationery, Subject, finish, room
 from isomould.documents.shop.view import choose_paper, fit_scale, scale_text
@@ -158,8 +158,7 @@ def _sheet(plan: _Plan, number: int) -> Iterator[Drawn]:
     placements = plan.on[sheet.id]
     size = paper_size(_paper(plan, sheet, len(placements)), lying=True)
     left, bottom, right, top = room(plan.stationery, size)
-    row = {**row, "part_area_m2": format_number(float(row["part_area_m2"]), 4)}
-    data = [(plan.headers[name], drawable(row[name])) for name in _SHOWN if row[name]]
+    data = [(plan.headers[name], drawable(amount_text(name, row[name]))) for name in _SHOWN if row[name]]
     data.insert(2, ("Size (mm)", f"{length_text(sheet.width)} x {length_text(sheet.height)}"))
     if str(sheet.material):
         data.insert(3, ("Material", drawable(str(sheet.material))))

@@ -3,6 +3,8 @@
 import re
 from collections.abc import Mapping
 
+from isomould.documents.columns import unit
+from isomould.documents.digits import shown
 from isomould.documents.numbers import format_number
 from isomould.documents.table import Cell, Table, cells
 
@@ -23,8 +25,22 @@ def schedule_rows(table: Table) -> list[Row]:
 
 def data_rows(table: Table, row: Row) -> list[tuple[str, str]]:
     """Give the headers and texts of what a part's own sheet lists; blanks, arms and files apart."""
-    shown = [column for column in table.columns if row[column.name] and not _NOT_SHOWN.fullmatch(column.name)]
-    return [(column.header, row[column.name]) for column in shown]
+    listed = [column for column in table.columns if row[column.name] and not _NOT_SHOWN.fullmatch(column.name)]
+    return [(column.header, amount_text(column.name, row[column.name])) for column in listed]
+
+
+_AMOUNTS = frozenset(("kg", "m²", "cm³"))
+"""Of what is weighed, coated or filled. Lengths and angles are what is cut: views repeat them digit by digit."""
+
+
+def amount_text(name: str, text: str) -> str:
+    """Write a mass, an area or a volume of a schedule with the digits of its unit, all else as it stands.
+
+    >>> amount_text("area_m2", "1.234567890123"), amount_text("length_mm", "1234.567"), amount_text("mass_kg", "")
+    ('1.23', '1234.567', '')
+    """
+    of = unit(name)
+    return shown(float(text), of) if text and of in _AMOUNTS else text
 
 
 def length_text(value: float) -> str:

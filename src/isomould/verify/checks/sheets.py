@@ -3,11 +3,13 @@
 import re
 from collections import Counter
 from collections.abc import Iterator
+from itertools import pairwise
 
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.pdf import Book, Sheet
-from isomould.verify.read.tables import Table, texts
+from isomould.verify.read.tables import Table, number, texts
 from isomould.verify.rules import Measured, NotApplicable, Rule, Unreadable, faults
+from isomould.verify.shown_digits import shows
 
 KINDS = ("nodes", "members", "panels")
 ARRANGEMENT = "general-arrangement"
@@ -21,6 +23,8 @@ _DIMENSIONS = re.compile(
 _UNLABELLED = re.compile(r"mark|(azimuth|elevation)_\d+_deg|(family|section)_\d+")
 """Columns that head the list, or stand in a table of their own."""
 _UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m2": "m²", "cm3": "cm³"}
+_AMOUNTS = frozenset(("kg", "m²", "cm³"))
+"""Units that sheets show to the digits of their use; lengths and angles stand as scheduled."""
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
@@ -29,8 +33,8 @@ def sheets_of_marks(delivery: Delivery) -> Measured:
     books, problems = books_of(delivery), list[str]()
     for kind in KINDS:
         table = delivery.table(kind)
-        for number, (mark, named) in enumerate(zip(texts(table, "mark"), _named(table), strict=True)):
-            problems += _sheet_faults(books[kind], number, mark, named)
+        for place, (mark, named) in enumerate(zip(texts(table, "mark"), _named(table), strict=True)):
+            problems += _sheet_faults(books[kind], place, mark, named)
         problems += [f"drawings/{kind}.pdf has {len(books[kind].sheets)} pages"] * (
             len(books[kind].sheets) != table.rows
         )
@@ -42,11 +46,11 @@ def _named(table: Table) -> tuple[str, ...]:
     return tuple(cell.split(";")[-1] for cell in texts(table, column))
 
 
-def _sheet_faults(book: Book, number: int, mark: str, named: str) -> list[str]:
-    wanted = f"drawings/{book.name}.pdf#page={number + 1}"
+def _sheet_faults(book: Book, place: int, mark: str, named: str) -> list[str]:
+    wanted = f"drawings/{book.name}.pdf#page={place + 1}"
     found = [] if named == wanted else [f"{mark}: the schedule names {named or 'no drawing'}, not {wanted}"]
-    if number >= len(book.sheets) or book.sheets[number].name != mark or book.sheets[number].texts.count(mark) < 2:
-        found.append(f"{mark}: page {number + 1} of drawings/{book.name}.pdf is not its sheet")
+    if place >= len(book.sheets) or book.sheets[place].name != mark or book.sheets[place].texts.count(mark) < 2:
+        found.append(f"{mark}: page {place + 1} of drawings/{book.name}.pdf is not its sheet")
     return found
 
 
@@ -62,12 +66,23 @@ def class_sheets(delivery: Delivery, kind: str) -> Iterator[tuple[Sheet, dict[st
     table = delivery.table(kind)
     columns = [name for name in table.columns if not _ELSEWHERE.fullmatch(name)]
     sheets = {sheet.name: sheet for sheet in books_of(delivery)[kind].sheets}
-    for number, mark in enumerate(texts(table, "mark")):
+    for place, mark in enumerate(texts(table, "mark")):
         if mark not in sheets:
             message = f"drawings/{kind}.pdf has no sheet of {mark}"
             raise Unreadable(message)
-        row = {name: texts(table, name)[number] for name in columns}
-        yield sheets[mark], {name: text for name, text in row.items() if text}
+        row = {name: texts(table, name)[place] for name in columns}
+        sheet = sheets[mark]
+        yield sheet, {name: _as_listed(sheet, name, text) for name, text in row.items() if text}
+
+
+def _as_listed(sheet: Sheet, column: str, text: str) -> str:
+    """Give a mass, an area or a volume as the sheet lists it, if that shows the number of the schedule."""
+    unit = _UNITS.get(column.rpartition("_")[2], "")
+    if unit not in _AMOUNTS:
+        return text
+    label, value = _label(column), number(text)
+    behind = (after for before, after in pairwise(sheet.texts) if before == label)
+    return next((found for found in behind if shows(found, value, unit)), text)
 
 
 def _missing(sheet: Sheet, row: dict[str, str]) -> list[str]:
