@@ -174,6 +174,16 @@ class TestHeadings:
         (one,) = read(written(tmp_path, "Pos;Stk;B;H;Glas\n7;2;1250;2100;ESG 8\n")).instance.parts
         assert (one.id, one.material.material) == ("7", "ESG 8")
 
+    @pytest.mark.parametrize("heading", ["Species", "Holzart", "Essence", "Essenza", "Dekor", "Scheibenaufbau"])
+    def test_woods_decors_and_panes_are_materials(self, tmp_path, heading):
+        given_ = read(written(tmp_path, f"Mark;Qty;Length;Width;{heading}\nA;2;900;400;Oak\nB;1;900;400;Ash\n"))
+        assert [part.material.material for part in given_.instance.parts] == ["Oak", "Ash"]
+
+    def test_rough_sizes_are_what_is_cut(self, tmp_path):
+        text = "Nom;Longueur brute;Largeur brute;Longueur finie;Largeur finie;Qté\nA;905;405;900;400;2\n"
+        assert parts_of(written(tmp_path, text)) == [("A", 2, 905, 405)]
+        assert "not read: Longueur finie, Largeur finie" in [note.text for note in read(tmp_path / "list.csv").notes]
+
     def test_names_that_repeat_get_numbers_and_marks_are_refused(self, tmp_path):
         given_ = read(written(tmp_path, "Name,Qty,Length,Width\nSide,1,900,700\nSide,2,800,600\n,1,70,60\n"))
         assert [part.id for part in given_.instance.parts] == ["Side", "Side (2)", "3"]
