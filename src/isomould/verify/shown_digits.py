@@ -1,5 +1,6 @@
 """Numbers that people see, held against the numbers that they stand for."""
 
+import math
 from decimal import Decimal, InvalidOperation
 
 _DECIMALS = {"mm": 1, "°": 2, "m²": 2, "m": 2, "kg": 1, "t": 2, "%": 1, "cm³": 1, "h": 1}
@@ -31,7 +32,7 @@ def shows(text: str, value: float, unit: str) -> bool:
     except InvalidOperation:
         return False
     exponent = number.as_tuple().exponent
-    if not isinstance(exponent, int):  # infinite, or no number
+    if not (isinstance(exponent, int) and math.isfinite(value)):  # infinite, or no number
         return False
     exact = Decimal(repr(float(value)))
     return abs(number - exact) <= _HALF.scaleb(min(exponent, _last_place(exact, unit)))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from isomould.documents.digits import shown
 from isomould.documents.numbers import format_number
 from isomould.documents.shop.font import drawable
 from isomould.documents.shop.grid import grid, grid_size
@@ -132,8 +133,8 @@ def _headlines(plan: _Plan) -> list[str]:
 
 
 def percent_text(value: float) -> str:
-    """Write a percentage as the schedules do."""
-    return format_number(value, 3)
+    """Write a percentage with the digits that people read."""
+    return shown(value, "%")
 
 
 def _tables(plan: _Plan) -> list[list[tuple[str, ...]]]:
@@ -142,8 +143,8 @@ def _tables(plan: _Plan) -> list[list[tuple[str, ...]]]:
     materials = [str(sheet.material) for sheet in plan.layout.sheets]
     said = [(drawable(material),) if any(materials) else () for material in materials]
     heading = (*(plan.headers[name] for name in columns), *(["Material"] if any(materials) else []))
-    shown = [tuple(drawable(row[name]) for name in columns) for row in plan.rows]
-    tables = [[heading, *((*row, *material) for row, material in zip(shown, said, strict=True))]]
+    listed = [tuple(drawable(amount_text(name, row[name])) for name in columns) for row in plan.rows]
+    tables = [[heading, *((*row, *material) for row, material in zip(listed, said, strict=True))]]
     left = Counter((str(one.id), one.reason, one.needs) for one in plan.layout.unplaced)
     lost = [(drawable(mark), str(n), drawable(why), *map(length_text, needs)) for (mark, why, needs), n in left.items()]
     lost_heading = ("No place for", "Pieces", "Reason", "Needs width (mm)", "Needs height (mm)")

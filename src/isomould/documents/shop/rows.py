@@ -29,12 +29,12 @@ def data_rows(table: Table, row: Row) -> list[tuple[str, str]]:
     return [(column.header, amount_text(column.name, row[column.name])) for column in listed]
 
 
-_AMOUNTS = frozenset(("kg", "m²", "cm³"))
-"""Of what is weighed, coated or filled. Lengths and angles are what is cut: views repeat them digit by digit."""
+_AMOUNTS = frozenset(("kg", "m²", "cm³", "%"))
+"""Of what is weighed, coated, filled or used. Lengths and angles are what is cut: views repeat them digit by digit."""
 
 
 def amount_text(name: str, text: str) -> str:
-    """Write a mass, an area or a volume of a schedule with the digits of its unit, all else as it stands.
+    """Write a mass, an area, a volume or a share of a schedule with the digits of its unit, all else as it stands.
 
     >>> amount_text("area_m2", "1.234567890123"), amount_text("length_mm", "1234.567"), amount_text("mass_kg", "")
     ('1.23', '1234.567', '')

@@ -10,6 +10,7 @@ from isomould.errors import OutputFault
 from isomould.verify.delivery import Delivery
 from isomould.verify.read.tables import half_unit, number, texts
 from isomould.verify.rules import Measured, NotApplicable, Rule, faults
+from isomould.verify.shown_digits import shows
 
 _LABELS = {
     "parts": "Parts",
@@ -68,7 +69,12 @@ def _says_all(found: list[str], row: Row) -> bool:
 
 
 def says(text: str, wanted: str | float, column: str) -> bool:
-    """Tell whether a text is the one that is wanted, or a number within half a unit of what its column prints."""
+    """Tell whether a text is the one that is wanted, or a number within half a unit of what its column prints.
+
+    Percentages have the digits that people read.
+    """
+    if column.endswith("_percent") and wanted != "":
+        return shows(text, number(wanted) if isinstance(wanted, str) else wanted, "%")
     if isinstance(wanted, str):
         return text == wanted
     try:
