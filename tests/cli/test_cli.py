@@ -383,6 +383,6 @@ def test_draw_writes_a_picture_and_refuses_other_formats(tmp_path, project_file)
     project_file(SMALL)
     assert run("draw", "project.toml", "--out", "roof.svg", "--view", "curvature", folder=tmp_path).returncode == 0
     assert (tmp_path / "roof.svg").read_text().startswith("<svg")
-    refused = run("draw", "project.toml", "--out", "roof.png", folder=tmp_path)
+    refused = run("draw", "project.toml", "--out", "roof.jpg", folder=tmp_path)
     assert refused.returncode == 2
     assert "E-DRAW-FILE" in refused.stderr
