@@ -77,8 +77,10 @@ def rectangles(instance: Instance) -> int:
     return min(packed(sizes, room, *case) for case in product(ALGORITHMS, ORDERS))
 
 
-def packed(sizes: list[tuple[int, ...]], room: tuple[int, ...], algorithm: type, order: object) -> int:
-    packer = rectpack.newPacker(pack_algo=algorithm, sort_algo=order)
+def packed(
+    sizes: list[tuple[int, ...]], room: tuple[int, ...], algorithm: type, order: object, *, turned: bool = True
+) -> int:
+    packer = rectpack.newPacker(pack_algo=algorithm, sort_algo=order, rotation=turned)
     for size in sizes:
         packer.add_rect(*size)
     packer.add_bin(*room, count=len(sizes))

@@ -8,13 +8,14 @@ from nesting_examples import GLASS, trapezoid
 from isomould.arrays import Ints
 from isomould.nesting.bound import bound_stock
 from isomould.nesting.checker import check_layout
+from isomould.nesting.choosing import choose_sheets
 from isomould.nesting.cover import Rack, fill_sheets, pieces_of
 from isomould.nesting.crew import gather
 from isomould.nesting.cut_checker import replay
 from isomould.nesting.dive import dive_part
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Part
-from isomould.nesting.master import add_stack, add_strip, make_master, solve
+from isomould.nesting.master import add_plans, add_stack, add_strip, make_master, solve
 from isomould.nesting.nest import nest_sheets
 from isomould.nesting.patterns import stack_up
 from isomould.nesting.pricing import make_offers
@@ -92,6 +93,27 @@ def test_best_stacks_are_those_of_a_plain_knapsack(lowest: int) -> None:
     found = stacks.trace(0)
     assert heights[found].sum() <= room
     assert worth[found].sum() == pytest.approx(best[-1])
+
+
+def test_whole_numbers_of_columns_save_a_sheet_that_the_dive_loses() -> None:
+    """Fifty rectangles of 1 to 35 mm on sheets of 40 mm: a dive alone ends with twelve sheets."""
+    sizes = np.random.default_rng(3).integers(1, 36, (50, 2)).tolist()
+    parts = [Part(k, trapezoid(w, h, 0, 0)) for k, (w, h) in enumerate(sizes)]
+    stock = StockSettings(sheets=(SheetStock(name="s", width=40, height=40),), gap=0, turning="none")
+    layout = nest_sheets(parts, stock, Search("normal"))
+    assert len(layout.sheets) == layout.pattern_bound == 11
+
+
+def test_whole_sheets_cover_all_pieces_at_the_cost_that_is_asked_or_none_are_given() -> None:
+    """Seven squares of 30 mm on sheets of 60 mm, four on a sheet: two sheets, never one."""
+    stock = StockSettings(sheets=(SheetStock(name="s", width=60, height=60),), gap=0)
+    classes = sort_classes([Part("P", trapezoid(30, 30, 0, 0), 7)])
+    rack, counts = make_rack(classes, stock), piece_counts(classes)
+    master = make_master(counts)
+    add_plans(master, fill_sheets(rack, counts, rack.areas))
+    chosen = choose_sheets(rack, master, counts, 2.0)
+    assert (len(chosen), pieces_of(chosen, 1).tolist()) == (2, [7])
+    assert choose_sheets(rack, master, counts, 1.0) == []
 
 
 def test_part_that_fits_only_the_dear_size_bounds_price_and_number() -> None:

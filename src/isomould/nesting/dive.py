@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from isomould.arrays import Floats, Ints
+from isomould.nesting.choosing import choose_sheets, worth_choosing
 from isomould.nesting.cover import Rack, area_of, cost_of, pieces_of
 from isomould.nesting.crew import Crew, Order
 from isomould.nesting.master import Column, Master, Slot, Solution, Stack, add_plans, make_master, solve
@@ -98,7 +99,20 @@ def dive(rack: Rack, first: list[SheetPlan], counts: Ints, task: Search, crew: C
         elif _still(costs) or _proved(state, best) or not _generate(state, counts, solution):
             break
     bound = math.ceil(state.bound - USED) if rack.exact else None
-    return replace(_sink(state, counts, best, task), pattern_bound=bound)
+    least = state.bound
+    found = _sink(state, counts, best, task)
+    return replace(_chosen(state, counts, found, least), pattern_bound=bound)
+
+
+def _chosen(state: _Dive, counts: Ints, found: Found, least: float) -> Found:
+    """Choose whole numbers of the columns where that may save a sheet of few pieces; `least` is their bound."""
+    best, alike = cost_of(found.plans), len(state.rack.stock) == 1
+    most = best - 1 if alike else best - USED
+    if most < max(least, state.rack.goal) - USED or not found.ended or not worth_choosing(counts, len(found.plans)):
+        return found
+    plans = choose_sheets(state.rack, state.master, counts, most)
+    better = (pieces_of(plans, len(counts)) == counts).all() and cost_of(plans) < best - USED
+    return Found(plans, True) if better else found
 
 
 def _still(costs: Sequence[float]) -> bool:
