@@ -198,4 +198,7 @@ Length = Annotated[float, BeforeValidator(parse_length)]
 Coordinate = Annotated[float, BeforeValidator(parse_coordinate)]
 """A length in mm; accepts a number in mm or a string with a unit."""
 PositiveLength = Annotated[Length, AfterValidator(_positive_length)]
+"""A length that something is made to."""
+Tolerance = Annotated[Length, AfterValidator(_positive)]
+"""A length by which two things may differ: it may be far smaller than anything that is made."""
 NonNegativeLength = Annotated[Length, AfterValidator(_length_or_none)]

@@ -299,7 +299,8 @@ def test_a_search_that_had_ended_keeps_its_status(tmp_path, monkeypatch):
     """An interrupt while sheets are drawn and proved: the layout is what it would be without."""
     (tmp_path / "parts.json").write_text(json.dumps(many(12)))
     stop = Stop()
-    monkeypatch.setattr("isomould.nesting.nest.nest_sheets", lambda *given: [nest_sheets(*given), stop.interrupt()][0])
+    search = "isomould.nesting.irregular.nest_sheets"
+    monkeypatch.setattr(search, lambda *given: [nest_sheets(*given), stop.interrupt()][0])
     layout = isomould.nest(tmp_path / "parts.json", tmp_path / "layout.json", "quick", stop)
     assert (stop.interrupted, layout.status, layout.reproducible) == (True, "complete", True)
 

@@ -120,7 +120,7 @@ def test_edges_beside_a_multiple_are_divided_alike():
 
 def test_edges_without_number_are_refused_before_they_are_made():
     with pytest.raises(Refused, match="E-SIZE"):
-        sketched(changed(VAULT, rail={"max_edge": 1e-9}))
+        sketched(changed(VAULT, rail={"max_edge": 0.001}))
 
 
 SHAPES = {

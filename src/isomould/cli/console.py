@@ -38,6 +38,13 @@ def keep_stdout_for_results() -> None:
         sys.stdout = open(own, "w", encoding=stream.encoding, errors=stream.errors)  # noqa: PTH123, SIM115
 
 
+def lay_stdout_down() -> None:
+    """Let what could not be written vanish: else it is tried again when the program ends, and changes its exit code."""
+    with suppress(OSError, ValueError, AttributeError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+
+
 def say(text: str) -> None:
     """Print on the output."""
     console().out(text, highlight=False)

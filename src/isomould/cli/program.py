@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from isomould.cli.console import INTERRUPTED, catch_signals, keep_stdout_for_results, warn
+from isomould.cli.console import INTERRUPTED, catch_signals, keep_stdout_for_results, lay_stdout_down, warn
 from isomould.errors import IsomouldError, Refused
 
 _COMMANDS = {
@@ -78,6 +78,7 @@ def _message(error: IsomouldError) -> str:
 def _run(arguments: Sequence[str] | None) -> int:
     try:
         result = cli.main(arguments, standalone_mode=False)
+        sys.stdout.flush()
     except click.ClickException as error:
         error.show()
         return error.exit_code
@@ -88,6 +89,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         warn("isomould: interrupted; nothing was published")
         return INTERRUPTED
     except OSError as error:
+        lay_stdout_down()
         warn(f"isomould: E-PRINT: the output cannot be written ({error.strerror or error}).")
         return 3
     except MemoryError:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from isomould.settings import Settings
-from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
+from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber, Tolerance
 
 Kind = Literal["isogonal", "moulding", "monge", "edge-offset"]
 Ends = Literal["square", "mitred"]
@@ -156,7 +156,7 @@ class FormLimits(Settings):
     """Limits that the form stages hold: part of the `[tolerances]` and `[limits]` tables."""
 
     min_member: PositiveLength = 100.0
-    same_length: PositiveLength = 0.5
+    same_length: Tolerance = 0.5
     """Edges whose lengths differ by no more are equal, as parts are (`tolerances.length`)."""
     max_deviation: NonNegativeLength | None = None
     max_turning_deg: PositiveNumber = Field(default=60.0)

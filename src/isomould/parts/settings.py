@@ -13,6 +13,7 @@ from isomould.units import (
     NonNegativeNumber,
     PositiveLength,
     PositiveNumber,
+    Tolerance,
 )
 
 Along = Literal["generatrix", "parallel"]
@@ -230,7 +231,7 @@ class PanelSettings(Settings):
 class CongruenceSettings(Settings):
     """When two instances are the same part: the first fields of `[tolerances]`."""
 
-    length: PositiveLength = 0.5
+    length: Tolerance = 0.5
     angle_deg: PositiveNumber = 0.05
 
 

@@ -20,7 +20,7 @@ from isomould.form.settings import (
 from isomould.nesting.settings import StockSettings
 from isomould.parts.settings import MemberSettings, NodeSettings, PanelLimits, PanelSettings, SlottedSettings
 from isomould.settings import Name, Settings
-from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber
+from isomould.units import Count, Flag, Length, NonNegativeLength, Number, PositiveLength, PositiveNumber, Tolerance
 from isomould.writers.names import safe_name
 from isomould.writers.settings import DeliverSettings
 
@@ -69,7 +69,7 @@ class GeneratrixTable(Settings):
 class ToleranceTable(Settings):
     """The `[tolerances]` table: when parts are the same, and what the mesh may not exceed."""
 
-    length: Annotated[PositiveLength, Field(le=5.0)] = 0.5
+    length: Annotated[Tolerance, Field(le=5.0)] = 0.5
     angle_deg: Annotated[PositiveNumber, Field(le=0.5)] = 0.05
     min_member: PositiveLength = 100.0
     max_deviation: NonNegativeLength | None = None
