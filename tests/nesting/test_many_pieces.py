@@ -1,5 +1,6 @@
 """Many pieces of few kinds: work on patterns and counts, the proof too."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,12 +9,16 @@ from nesting_examples import rows_of_trapezoids, trapezoid
 
 from isomould.nesting import offcuts, search
 from isomould.nesting.checker import check_layout
+from isomould.nesting.cover import pieces_of
+from isomould.nesting.crew import Order, gather
 from isomould.nesting.cut_checker import Replay, replay
 from isomould.nesting.files import layout_to_json
 from isomould.nesting.layout import Part
 from isomould.nesting.nest import nest_sheets
+from isomould.nesting.rack import make_rack, piece_counts, sort_classes
 from isomould.nesting.search import Effort, Search
 from isomould.nesting.settings import SheetStock, StockSettings
+from isomould.nesting.sheets import SheetPlan
 from isomould.nesting.twins import first_twins
 
 STOCK = StockSettings(sheets=(SheetStock(name="s", width=3000, height=1500),), gap=5, trim=10)
@@ -96,3 +101,22 @@ def test_a_hasty_search_stays_near_the_fine_one(monkeypatch: pytest.MonkeyPatch)
     hasty = nest_sheets(parts, stock, Search("quick"))
     assert check_layout(parts, stock, hasty) == ()
     assert len(hasty.sheets) <= len(fine.sheets) + 1
+
+
+def test_scarce_kinds_stop_only_the_sheets_that_have_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 3,600 pieces a few dozen are scarce: sheets without them are cut again, so that few pools are filled."""
+    monkeypatch.setattr(search, "POOL", 100)
+    chance = np.random.default_rng(4)
+    sizes = [(a, h, 300 if k < 12 else 7) for k, (a, h) in enumerate(chance.uniform(250, 900, (18, 2)))]
+    classes = sort_classes([Part(k, trapezoid(a, h, 20, 20), many) for k, (a, h, many) in enumerate(sizes)])
+    rack, counts = make_rack(classes, STOCK), piece_counts(classes)
+    pools: list[int] = []
+    with gather(rack, 1) as crew:
+
+        def counted(orders: Sequence[Order]) -> list[list[SheetPlan]]:
+            pools.append(len(orders))
+            return crew(orders)
+
+        plans = search.first_sheets(rack, counts, Search("quick"), counted)
+    assert (pieces_of(plans, len(counts)) == counts).all()
+    assert len(pools) <= 6

@@ -11,7 +11,16 @@ from typing import Literal
 import numpy as np
 
 from isomould.arrays import Ints
-from isomould.nesting.cover import PLENTY, Rack, area_of, cost_of, fill_sheets, pieces_of, without
+from isomould.nesting.cover import (
+    PLENTY,
+    Rack,
+    area_of,
+    cost_of,
+    fill_sheets,
+    pieces_of,
+    times_of,
+    without,
+)
 from isomould.nesting.crew import Crew, Order
 from isomould.nesting.sheets import SheetPlan
 
@@ -27,7 +36,10 @@ SMALL_POOL = 150
 """The same in a hasty search."""
 
 MOST_ROUNDS = 60
-"""Re-fillings of a hasty search at most."""
+"""Re-fillings of a hasty search at most, and of very many pieces."""
+
+MASSES = 20_000
+"""Pieces from which there are very many: a few sheets of thousands filled again gain next to nothing."""
 
 HASTY = 2000
 """Different parts from which a quick search is hasty."""
@@ -115,7 +127,8 @@ def improve(rack: Rack, plans: list[SheetPlan], counts: Ints, task: Search, crew
 
 def _rounds(plans: Sequence[SheetPlan], task: Search, counts: Ints) -> int:
     rounds = round(ROUNDS[task.effort] * _different(plans))
-    return min(rounds, MOST_ROUNDS) if task.hastens(len(counts)) else rounds
+    few = task.hastens(len(counts)) or counts.sum() > MASSES
+    return min(rounds, MOST_ROUNDS) if few else rounds
 
 
 def _different(plans: Sequence[SheetPlan]) -> int:
@@ -136,9 +149,11 @@ def first_sheets(rack: Rack, counts: Ints, task: Search, crew: Crew) -> list[She
         pools = _pools(left, SMALL_POOL if task.hastens(len(counts)) else POOL)
         filled = crew([Order(pool, worth, rack.stock) for pool in pools[:LANES]])
         full = [plan for made in filled for plan in _fullest(rack, made)]
-        full *= _times(full, left)
-        plans += full
-        left = left - pieces_of(full, len(counts))
+        together = _times(full, left)
+        taken = full * together
+        taken += _again(full, left - pieces_of(taken, len(counts)), len(pools) // LANES - together)
+        plans += taken
+        left = left - pieces_of(taken, len(counts))
     return _fill_up(rack, plans, left, task)
 
 
@@ -146,6 +161,16 @@ def _times(plans: list[SheetPlan], left: Ints) -> int:
     """Tell how often there are pieces for all of some sheets."""
     uses = pieces_of(plans, len(left))
     return int((left[uses > 0] // uses[uses > 0]).min())
+
+
+def _again(plans: Sequence[SheetPlan], left: Ints, most: int) -> list[SheetPlan]:
+    """Take each sheet up to `most` times more, as long as there are pieces: what is scarce stops only those with it."""
+    again: list[SheetPlan] = []
+    for plan in plans:
+        times = max(min(most, times_of(plan, left)), 0)
+        again += [plan] * times
+        left = left - times * pieces_of([plan], len(left))
+    return again
 
 
 def _fill_up(rack: Rack, plans: list[SheetPlan], left: Ints, task: Search) -> list[SheetPlan]:
