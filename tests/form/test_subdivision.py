@@ -351,7 +351,8 @@ class TestSurvey:
         generatrix |= {"origin": ["4 m", 0], "divide": {"phase": "centre"}, "max_edge": 900}
         surface = {"kind": "edge-offset", "pole": "open", "min_pole_angle_deg": 20}
         rail, limits = {"divide": {"angle_deg": 12}}, {"min_member": 170}
-        data = changed(SMALL, rail=rail, generatrix=generatrix, surface=surface, tolerances=limits)
+        shape = {"rail": rail, "generatrix": generatrix, "surface": surface}
+        data = changed(SMALL, **shape, tolerances=limits, deliver={"strips": []})
         checked = isomould.check(write_project(tmp_path / "open.toml", data))
         gap = checked.design.form.generatrix.gap
         assert gap.sum() == 1
