@@ -17,6 +17,7 @@ from isomould.curves.origins import origin_of, seen_from
 from isomould.curves.plane import Plane
 from isomould.curves.rhino import open_rhino_source
 from isomould.curves.shapes import Draft
+from isomould.curves.smoothing import smoothed
 from isomould.curves.spatial import laid_flat
 from isomould.errors import Note, Refused
 
@@ -46,8 +47,9 @@ def read_drawn(settings: DrawnSettings, base_dir: Path, plane: Plane | None, fie
     ground, offset = _seen_from(plane, origin) if settings.drawn == "world" and plane else (None, origin[:2])
     strokes, flattened = laid_flat(seen_from(drawing.traced, origin), ground, field, join)
     chain, moved = the_one_chain(strokes, join, field)
+    pieces, smooth = smoothed(chain.pieces, chain.closed, join, field)
     away = (float(offset[0]), float(offset[1]))
-    return Draft(chain.pieces, chain.closed, (*drawing.notes, *flattened, *moved), away)
+    return Draft(pieces, chain.closed, (*drawing.notes, *flattened, *moved, *smooth), away)
 
 
 def trace_drawn(settings: DrawnSettings, base_dir: Path, field: str) -> LayerDrawing:

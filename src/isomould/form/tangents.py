@@ -173,10 +173,13 @@ def split_at_inflections(edges: Edges) -> Edges:
 
 
 def refuse_noise(curve: PlanarCurve, turns: Spans, lattices: Sequence[Lattice], field: str) -> None:
-    """Refuse curves whose curvature flickers (failure mode B5); an arc cut at its very end is none."""
+    """Refuse curves whose curvature flickers (failure mode B5); an arc cut near its end is none."""
     runs = arcs(turns)
     ends = np.stack([turns.theta0[runs.first], turns.theta1[runs.last]], axis=1)
     turned = np.array([abs(np.diff(lattice.index(pair))[0]) for lattice, pair in zip(lattices, ends, strict=True)])
+    if curve.closed and not turns.closed and runs.sign[0] == runs.sign[-1]:
+        # cut open inside an arc: its two parts are one
+        turned[[0, -1]] = turned[0] + turned[-1]
     noisy = np.flatnonzero((turned < _NOISE) & (turned > _ON_LATTICE) & (runs.sign != 0))
     if len(noisy) and len(runs.sign) > 1:
         span = runs.first[noisy[0]]
