@@ -268,5 +268,5 @@ def test_a_printed_rail_gives_the_surface_of_the_exact_one(tmp_path, rail, close
 
 def test_check_takes_a_printed_rail(tmp_path):
     (tmp_path / "rail.dxf").write_text(drawing(line_arc_line(Pen(PRINTERS["%g"], 0.4))))
-    checked = check(write_project(tmp_path / "hall.toml", project("rail.dxf", closed=False)))
+    checked = check(write_project(tmp_path / "hall.toml", project("rail.dxf", closed=False)), ["rail.max_edge=3000"])
     assert "W-DRAWN-SMOOTHED" in {note.code for note in checked.notes}
