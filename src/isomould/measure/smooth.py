@@ -71,10 +71,9 @@ def radii_ratios(smooth: Smooth, form: Form) -> Floats:
 
     Infinite where one of the curves is straight.
     """
-    across, along = principal_curvatures(smooth, form)
-    with np.errstate(divide="ignore"):
-        ratio = np.abs(along / across)
-        return np.maximum(ratio, 1 / ratio)
+    across, along = np.abs(principal_curvatures(smooth, form))
+    lesser, greater = np.minimum(across, along), np.maximum(across, along)
+    return np.divide(greater, lesser, out=np.full_like(greater, np.inf), where=lesser > 0)
 
 
 def principal_curvatures(smooth: Smooth, form: Form) -> tuple[Floats, Floats]:
