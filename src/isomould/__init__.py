@@ -17,7 +17,9 @@ from isomould.api import (
 )
 from isomould.documents.viewing import Seen
 from isomould.errors import CertificateFailed, IsomouldError, Note, OutputFault, Refused
+from isomould.progress import Step
 from isomould.running import Built, Run
+from isomould.showing import Progress
 
 __all__ = [
     "Built",
@@ -27,9 +29,11 @@ __all__ = [
     "NestFiles",
     "Note",
     "OutputFault",
+    "Progress",
     "Refused",
     "Run",
     "Seen",
+    "Step",
     "build",
     "check",
     "compare",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from isomould.documents.viewing import Seen, View
 from isomould.errors import Note, Refused
+from isomould.progress import Tell, tell_nobody
 from isomould.running import Built, Checked, NestFiles, Run
 from isomould.verify import Certificate  # loaded here, before its name is given to the verb
 
@@ -53,7 +54,7 @@ def new(name: str, template: str = "barrel-vault") -> tuple[Path, ...]:
     return copy_template(template, file)
 
 
-def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
+def check(project: str | Path, changes: Sequence[str] = (), progress: Tell = tell_nobody) -> Checked:
     """Compute a design and its counts, and hold it to all that `build` asks before it searches; no files are written.
 
     Parameters
@@ -62,10 +63,12 @@ def check(project: str | Path, changes: Sequence[str] = ()) -> Checked:
         A project file.
     changes
         Overrides such as `'rail.curve.rise="8 m"'`.
+    progress
+        Told every step, such as one more node solid.
     """
     from isomould.checking import check_file
 
-    return check_file(Path(project), changes)
+    return check_file(Path(project), changes, progress)
 
 
 def explore(project: str | Path, changes: Sequence[str] = ()) -> Study:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from isomould.errors import Attempt, Gathering, Refused
+from isomould.progress import Course, Stage, Tell, tell_nobody
 from isomould.project.load import LoadedProject, load_project, read_tables
 from isomould.running import Checked
 from isomould.writers.names import safe_name
@@ -19,8 +20,11 @@ if TYPE_CHECKING:
     from isomould.design import Design
     from isomould.parts.plates import Shape
 
+_DESIGN, _SOLIDS = "curves, surface, parts", "node solids and clashes"
+_STAGES = (Stage(_DESIGN), Stage(_SOLIDS))
 
-def check_file(path: Path, changes: Sequence[str]) -> Checked:
+
+def check_file(path: Path, changes: Sequence[str], progress: Tell = tell_nobody) -> Checked:
     """Read a project, compute its shapes as a build does up to the search, and say what they come to.
 
     Of a file with faults the curves are tried all the same if it describes them well.
@@ -36,7 +40,7 @@ def check_file(path: Path, changes: Sequence[str]) -> Checked:
             faults.run(_try_salvaged, path, changes, faults)
         faults.run(lambda: safe_name(loaded.value.project.project.name))
         bodies: dict[str, tuple[Shape, ...]] = {}
-        designs = faults.run(lambda: _rehearsed(loaded, bodies))
+        designs = faults.run(lambda: _rehearsed(loaded, bodies, Course(_STAGES, progress)))
         return _checked(loaded.value, designs.value, bodies)
 
 
@@ -56,7 +60,9 @@ def _try_salvaged(path: Path, changes: Sequence[str], faults: Gathering) -> None
         try_curves(project, path.resolve().parent, faults)
 
 
-def _rehearsed(loaded: Attempt[LoadedProject], bodies: dict[str, tuple[Shape, ...]]) -> dict[str, Design]:
+def _rehearsed(
+    loaded: Attempt[LoadedProject], bodies: dict[str, tuple[Shape, ...]], course: Course
+) -> dict[str, Design]:
     """Rehearse a build; the surfaces of nodes, which clashes are measured on, are kept by the design's name."""
     project = loaded.value  # ends here if there is none
 
@@ -64,9 +70,11 @@ def _rehearsed(loaded: Attempt[LoadedProject], bodies: dict[str, tuple[Shape, ..
     from isomould.rehearsal import refuse_all_clashes, rehearse
 
     def further(design: Design) -> None:
-        made = bodies[design.name] = make_bodies(design.kit.nodes, design.kit.joints)
+        told = course.begin(_SOLIDS)
+        made = bodies[design.name] = make_bodies(design.kit.nodes, design.kit.joints, told)
         refuse_all_clashes(design, made)
 
+    course.begin(_DESIGN)
     return rehearse(project, further)
 
 

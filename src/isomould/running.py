@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from isomould.progress import Step, Tell, tell_nobody
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -37,6 +39,7 @@ class Built:
 class Run:
     """How a build is run: `jobs` processes (None: one per core) change the time, never the result.
 
+    `report` is told the name of every stage as it begins; `progress` every `Step`, such as one more drawing.
     `previous` is a former delivery of the project: unchanged classes keep its marks.
     """
 
@@ -44,7 +47,14 @@ class Run:
     effort: Effort = "normal"
     jobs: int | None = None
     report: Report = lambda stage: None
+    progress: Tell = tell_nobody
     previous: Path | None = None
+
+    def tell(self, step: Step) -> None:
+        """Tell a step to both."""
+        self.progress(step)
+        if step.total == 0:
+            self.report(step.stage)
 
 
 @dataclass(frozen=True, eq=False)

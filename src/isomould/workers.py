@@ -13,6 +13,7 @@ from functools import partial
 from typing import Protocol, TypeVar
 
 from isomould.errors import IsomouldError
+from isomould.progress import Told, count_for_nobody, counted, counted_to
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -23,18 +24,22 @@ _CHUNKS_PER_WORKER = 4
 class Spread(Protocol):
     """Applies a function of a module to many items and gives the results in their order."""
 
-    def __call__(self, function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
-        """Apply `function` to every item; the first exception is raised."""
+    def __call__(
+        self, function: Callable[[Item], Result], items: Sequence[Item], told: Told = count_for_nobody
+    ) -> list[Result]:
+        """Apply `function` to every item and count those that are done; the first exception is raised."""
         ...
 
 
-def one_by_one(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+def one_by_one(
+    function: Callable[[Item], Result], items: Sequence[Item], told: Told = count_for_nobody
+) -> list[Result]:
     """Apply a function to every item in this process.
 
     >>> one_by_one(abs, [-1, 2])
     [1, 2]
     """
-    return [function(item) for item in items]
+    return [function(item) for item in counted(items, told)]
 
 
 @contextmanager
@@ -67,10 +72,14 @@ def workers(jobs: int | None = None, prepare: Callable[[], None] | None = None) 
 
 
 def _spread(
-    pool: ProcessPoolExecutor, count: int, function: Callable[[Item], Result], items: Sequence[Item]
+    pool: ProcessPoolExecutor,
+    count: int,
+    function: Callable[[Item], Result],
+    items: Sequence[Item],
+    told: Told = count_for_nobody,
 ) -> list[Result]:
     size = max(1, len(items) // (_CHUNKS_PER_WORKER * count))
-    return list(pool.map(function, items, chunksize=size))
+    return list(counted_to(len(items), pool.map(function, items, chunksize=size), told))
 
 
 def _begin(prepare: Callable[[], None] | None) -> None:

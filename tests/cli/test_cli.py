@@ -320,7 +320,7 @@ def test_an_interrupted_build_leaves_nothing(tmp_path, number):
     command = [sys.executable, "-m", "isomould", "build", "vault.toml", "--jobs", "2"]
     with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as running:
         for line in running.stderr:
-            if line.startswith("nesting"):
+            if ": nesting" in line:
                 break
         running.send_signal(number)
         errors = running.communicate(timeout=60)[1]

@@ -1,13 +1,18 @@
-"""What commands share: how they print, tell their progress, and are told to end."""
+"""What commands share: how they print, and are told to end. Rich is imported with the first table."""
+
+from __future__ import annotations
 
 import os
 import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
+
+if TYPE_CHECKING:
+    from isomould.reader import Reader
 
 _STDOUT, _STDERR = 1, 2
 
@@ -15,8 +20,10 @@ INTERRUPTED = 130
 """The exit code after Ctrl-C."""
 
 
-def console() -> Console:
+def console() -> Reader:
     """Give the console of the output."""
+    from isomould.reader import Reader
+
     return Reader(highlight=False, soft_wrap=False)
 
 
@@ -54,38 +61,6 @@ def warn(text: str) -> None:
     """Print on stderr."""
     with suppress(OSError):  # nobody reads it
         click.echo(text, err=True)
-
-
-class Reader(Console):
-    """A console whose reader may go away (`| head`): what was done stays done, and the exit code says so."""
-
-    def on_broken_pipe(self) -> None:
-        """Go on without the reader."""
-        with suppress(SystemExit):
-            super().on_broken_pipe()
-
-
-class Progress:
-    """Shows the running stage on stderr: a spinner on a terminal, plain lines otherwise."""
-
-    def __init__(self, quiet: bool) -> None:
-        self.console = Reader(stderr=True, quiet=quiet)
-        self.status = self.console.status("starting") if self.console.is_terminal and not quiet else None
-
-    def __enter__(self) -> Callable[[str], None]:
-        return self._report
-
-    def _report(self, stage: str) -> None:
-        if self.status:
-            self.status.update(stage)
-            self.status.start()
-        else:
-            with suppress(OSError):  # a full log must not stop the work
-                self.console.print(stage, highlight=False)
-
-    def __exit__(self, *_: object) -> None:
-        if self.status:
-            self.status.stop()
 
 
 def catch_signals(handler: Callable[..., None], *names: str) -> None:

@@ -22,6 +22,7 @@ from isomould.nesting.layout import BarLayout, Layout
 from isomould.nesting.search import Effort
 from isomould.nesting.settings import BarEnds, Turning
 from isomould.nesting.stop import Stop
+from isomould.progress import Step, Tell
 from isomould.units import LengthUnit
 
 _UNITS = click.Choice(get_args(LengthUnit))
@@ -98,15 +99,17 @@ def nest(
     **files: Any,
 ) -> None:
     """Nest parts of any origin on sheets, members on bars: JSON, CSV, a folder of drawings (DXF), or a delivery."""
-    stop, tell = Stop(time_limit), _say_nothing if quiet else warn
+    stop = Stop(time_limit)
     files["columns"] = dict(files["columns"])
     own = read_stock(files["stock"]) if files["stock"] else {}
     members = lists_members(instance, Reading(files["units"], files["columns"]), {**own, **files["changes"]})
     _refuse_stock_of_others(files["changes"], members)
     catch_signals(Interrupting(stop))
-    tell(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
-    asked, progress = isomould.NestFiles(**files), _tell_number("bars" if members else "sheets", tell)
-    layout = isomould.nest(instance, out, effort, stop, progress, jobs, asked, _remark)
+    if not quiet:
+        warn(f"nesting {instance} (Ctrl-C keeps the best layout so far)")
+    with isomould.Progress(quiet, by_itself=False) as shown:
+        asked, progress = isomould.NestFiles(**files), _tell_steps("bars" if members else "sheets", shown)
+        layout = isomould.nest(instance, out, effort, stop, progress, jobs, asked, _remark)
     say(f"{_worth(layout)}, status {layout.status}: {out}")
     if stop.interrupted:
         sys.exit(INTERRUPTED)
@@ -135,21 +138,15 @@ def _remark(note: Note) -> None:
     warn(f"note: {note}")
 
 
-def _tell_number(what: str, tell: Callable[[str], None]) -> Callable[[int, int, int, int], None]:
-    """Give a progress that tells every number of sheets, or of bars, once."""
-    told = set[int]()
+def _tell_steps(what: str, tell: Tell) -> Callable[[int, int, int, int], None]:
+    """Give a progress that tells the number of sheets, or of bars, and how much of the search is done."""
 
-    def progress(_: int, __: int, number: int, bound: int) -> None:
-        if number not in told:
-            told.add(number)
-            above = f", at least {bound} needed, {number - bound} above that" if bound > 0 else ""
-            tell(f"{number} {what}{above}")
+    def progress(done: int, total: int, number: int, bound: int) -> None:
+        above = f", at least {bound} needed, {number - bound} above that" if bound > 0 else ""
+        share = done / total if total else None
+        tell(Step(f"{number} {what}{above}", done=done, total=total, share=share))
 
     return progress
-
-
-def _say_nothing(_: str) -> None:
-    """Tell nobody."""
 
 
 class Interrupting:

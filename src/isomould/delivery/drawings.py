@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from isomould.delivery.goods import Delivery
+from isomould.delivery.stages import DRAWING_FILES, DRAWINGS
 from isomould.documents.shop.arrangement import arrangement_pages
 from isomould.documents.shop.cutting_plan import cutting_plan
 from isomould.documents.shop.font import drawable
@@ -29,6 +30,7 @@ from isomould.parts.details.slotted import SlottedJoint
 from isomould.parts.kit import Kit
 from isomould.parts.sections import view_solid
 from isomould.parts.settings import PanelSettings
+from isomould.progress import UNTOLD, Course, Told, count_for_nobody, counted
 from isomould.project.schema import Project
 from isomould.templates import template_folder
 from isomould.workers import Spread
@@ -47,12 +49,13 @@ class _BookFiles:
     subject: str
 
 
-def write_drawings(folder: Path, delivery: Delivery, spread: Spread) -> None:
-    """Write the books that the project asks for, side by side."""
+def write_drawings(folder: Path, delivery: Delivery, spread: Spread, course: Course = UNTOLD) -> None:
+    """Draw the books that the project asks for, and write them side by side."""
     project = delivery.design.project
     if project.deliver.drawings:
-        books = make_books(delivery)
-        spread(_write_book, [_BookFiles(folder, book, heading(project.project)) for book in books])
+        books = make_books(delivery, course.begin(DRAWINGS))
+        files = [_BookFiles(folder, book, heading(project.project)) for book in books]
+        spread(_write_book, files, course.begin(DRAWING_FILES))
 
 
 def write_cutting_plan(path: Path, delivery: Delivery) -> None:
@@ -80,10 +83,10 @@ def _write_book(files: _BookFiles) -> None:
     write_pages(files.folder / f"{files.book.name}.dxf", files.book)
 
 
-def make_books(delivery: Delivery) -> tuple[Book, ...]:
-    """Draw all books of a delivery from its parts and its schedules."""
+def make_books(delivery: Delivery, told: Told = count_for_nobody) -> tuple[Book, ...]:
+    """Draw all books of a delivery from its parts and its schedules, counted."""
     project, named = delivery.design.project, {table.name: table for table in delivery.schedules}
-    return tuple(make(delivery, named, _stationery(project)) for make in _BOOKS)
+    return tuple(make(delivery, named, _stationery(project)) for make in counted(_BOOKS, told))
 
 
 def _nodes(delivery: Delivery, tables: Tables, stationery: Stationery) -> Book:

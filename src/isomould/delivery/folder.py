@@ -10,19 +10,23 @@ from isomould.delivery.model import write_model
 from isomould.delivery.nodes import write_nodes
 from isomould.delivery.schedules import write_bars, write_schedules
 from isomould.delivery.solids import write_part_solids
+from isomould.delivery.stages import MODELS, SCHEDULES
+from isomould.progress import UNTOLD, Course
 from isomould.workers import Spread
 
 
-def write_delivery(folder: Path, delivery: Delivery, spread: Spread) -> None:
+def write_delivery(folder: Path, delivery: Delivery, spread: Spread, course: Course = UNTOLD) -> None:
     """Write all files but certificate and manifest into an empty folder."""
-    write_model(folder / "model", delivery)
-    write_machine_files(folder, delivery, spread)
+    write_machine_files(folder, delivery, spread, course)
     write_nc1_files(folder, delivery)
-    write_nodes(folder / "nodes", delivery)
+    told = course.begin(MODELS)
+    write_model(folder / "model", delivery)
+    write_nodes(folder / "nodes", delivery, told)
     write_part_solids(folder, delivery)
+    course.begin(SCHEDULES)
     write_schedules(folder, delivery)
     write_bars(folder / "bars" / "bars.csv", delivery)
-    write_drawings(folder / "drawings", delivery, spread)
+    write_drawings(folder / "drawings", delivery, spread, course)
     write_cutting_plan(folder / "sheets" / "cutting-plan.pdf", delivery)
     write_saw_list(folder / "bars" / "saw-list.pdf", delivery)
     write_strips(folder, delivery)

@@ -6,6 +6,7 @@ from pathlib import Path
 from isomould.arrays import Floats
 from isomould.delivery.cut_sheets import SheetLook, sheet_files, write_sheet, write_versions
 from isomould.delivery.goods import Delivery
+from isomould.delivery.stages import PART_FILES, SHEETS
 from isomould.documents.cut_sheets import part_drawing
 from isomould.documents.drawing import CutDrawing
 from isomould.documents.flat_parts import FlatPart, base_parts, fitting_parts, flat_drawing, flat_nc_part
@@ -15,6 +16,7 @@ from isomould.documents.strips import strip_drawing
 from isomould.nesting.files import layout_to_json
 from isomould.parts.members import MemberShape
 from isomould.parts.settings import PanelSettings
+from isomould.progress import UNTOLD, Course
 from isomould.workers import Spread
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
@@ -33,7 +35,7 @@ class _PartFile:
     orientation: str | None
 
 
-def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> None:
+def write_machine_files(folder: Path, delivery: Delivery, spread: Spread, course: Course = UNTOLD) -> None:
     """Write the part files of panels and members and the cut sheets: many files, side by side."""
     kit, asked = delivery.design.kit, delivery.design.project.deliver
     orientation = _orientation(delivery.design.project.panels)
@@ -42,10 +44,12 @@ def write_machine_files(folder: Path, delivery: Delivery, spread: Spread) -> Non
     }
     parts |= {f"members/{mark}": shape for mark, shape in zip(kit.members.marks, kit.members.shapes, strict=True)}
     parts |= {part.file: part for part in fitting_parts(delivery.fittings)}
-    spread(_write_part, [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()])
+    files = [_PartFile(folder, name, part, asked, orientation) for name, part in parts.items()]
+    spread(_write_part, files, course.begin(PART_FILES))
     layout = delivery.cutting.sheets
     look = SheetLook(asked, orientation)
-    spread(write_sheet, sheet_files(folder, "sheets/", layout, delivery.cutting.stock, look))
+    sheets = sheet_files(folder, "sheets/", layout, delivery.cutting.stock, look)
+    spread(write_sheet, sheets, course.begin(SHEETS))
     write_bytes(folder / "sheets" / "nesting.json", layout_to_json(layout).encode())
 
 

@@ -9,15 +9,16 @@ from isomould.delivery.machine import plates_of_bases
 from isomould.documents.flat_parts import flat_drawing
 from isomould.documents.node_plans import node_plan
 from isomould.parts.solid import Solid
+from isomould.progress import Told, count_for_nobody, counted
 from isomould.writers.disk import write_bytes
 from isomould.writers.dxf import write_dxf
 from isomould.writers.solids import write_3mf, write_stl
 
 
-def write_nodes(folder: Path, delivery: Delivery) -> None:
-    """Write the solids and what was measured of them."""
+def write_nodes(folder: Path, delivery: Delivery, told: Told = count_for_nobody) -> None:
+    """Write the solids, counted, and what was measured of them."""
     marks = delivery.design.kit.nodes.marks
-    for mark, solid in zip(marks, delivery.solids, strict=True):
+    for mark, solid in counted(list(zip(marks, delivery.solids, strict=True)), told):
         write_3mf(folder / f"{mark}.3mf", solid.vertices, solid.triangles, mark)
         write_stl(folder / f"{mark}.stl", solid.vertices, solid.triangles)
     _write_plans(folder, delivery)

@@ -14,6 +14,7 @@ from isomould.errors import IsomouldError
 from isomould.parts.details.joint import Carving, Joint
 from isomould.parts.nodes import NodeParts
 from isomould.parts.plates import Shape, shape_of
+from isomould.progress import Told, count_for_nobody, counted
 
 _NOISE = 1e-9
 
@@ -58,26 +59,28 @@ class Solid:
         read_only(self.triangles)
 
 
-def make_solids(nodes: NodeParts, joints: tuple[Joint, ...]) -> tuple[Solid, ...]:
-    """Build the solid of every node class.
+def make_solids(nodes: NodeParts, joints: tuple[Joint, ...], told: Told = count_for_nobody) -> tuple[Solid, ...]:
+    """Build the solid of every node class, counted.
 
     Raises
     ------
     SolidError
         If the solid kernel's result fails a check.
     """
-    return tuple(make_solid(joint.carve(), joint.genus, mark) for joint, mark in zip(joints, nodes.marks, strict=True))
+    classes = list(zip(joints, nodes.marks, strict=True))
+    return tuple(make_solid(joint.carve(), joint.genus, mark) for joint, mark in counted(classes, told))
 
 
-def make_bodies(nodes: NodeParts, joints: tuple[Joint, ...]) -> tuple[Shape, ...]:
-    """Give the surfaces of the solids of every node class, not measured: a quarter of the work.
+def make_bodies(nodes: NodeParts, joints: tuple[Joint, ...], told: Told = count_for_nobody) -> tuple[Shape, ...]:
+    """Give the surfaces of the solids of every node class, counted, not measured: a quarter of the work.
 
     Raises
     ------
     SolidError
         If the solid kernel fails.
     """
-    return tuple(shape_of(_cut(joint.carve(), mark)) for joint, mark in zip(joints, nodes.marks, strict=True))
+    classes = list(zip(joints, nodes.marks, strict=True))
+    return tuple(shape_of(_cut(joint.carve(), mark)) for joint, mark in counted(classes, told))
 
 
 def _cut(carving: Carving, mark: str) -> m3.Manifold:

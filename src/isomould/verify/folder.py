@@ -5,6 +5,7 @@ from pathlib import Path
 from types import ModuleType
 
 from isomould.errors import OutputFault
+from isomould.progress import Told, count_for_nobody, counted
 from isomould.verify.certificate import Certificate
 from isomould.verify.checks import (
     bars,
@@ -114,7 +115,9 @@ SCHEDULE_RULES = _rules(_SCHEDULED, *setting_out.TABLE_RULES)
 """The checks of a folder that holds schedules only."""
 
 
-def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_one) -> Certificate:
+def verify_folder(
+    folder: Path, *, final: bool = True, spread: Spread = one_by_one, told: Told = count_for_nobody
+) -> Certificate:
     """Run every check on a folder (proof.md), or those of schedules on one that holds nothing else.
 
     Parameters
@@ -125,6 +128,8 @@ def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_o
         False for a candidate: its manifest is provisional, certificate.json and report.html are not there yet.
     spread
         Reads the drawings side by side.
+    told
+        Told of the checks that are done.
 
     Raises
     ------
@@ -136,7 +141,7 @@ def verify_folder(folder: Path, *, final: bool = True, spread: Spread = one_by_o
         raise OutputFault(message)
     delivery = Delivery(folder, final, spread)
     rules = SCHEDULE_RULES if delivery.scope == "schedules" else RULES if final else WITHOUT_PAGE
-    return Certificate(tuple(judge(rule, delivery) for rule in rules))
+    return Certificate(tuple(judge(rule, delivery) for rule in counted(rules, told)))
 
 
 def verify_page(folder: Path, certificate: Certificate) -> Certificate:
