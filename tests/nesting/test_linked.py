@@ -70,7 +70,7 @@ def test_the_best_chain_is_found_among_all_that_keep_the_order(turning: Turning)
     """Five parts whose worth is their number: as many as fit, against every choice in order and way by hand."""
     parts = [Part(f"{k}", trapezoid(300 + 40 * k, 300, 20 + 31 * k, 90 - 43 * k)) for k in range(5)]
     grid = Grid(1000, 5000.0, flips=turning == "half")
-    kind = next(kind for kind in classes_by_kind(sort_classes(parts), (0,), grid) if kind.links)
+    kind = next(kind for kind in classes_by_kind(sort_classes(parts), lambda _: (0,), grid) if kind.links)
     best = np.zeros(1101)
     layer = link_layer(kind, list(kind.items), best, np.ones(5), grid)
     chain, rest = trace_linked(layer, 1100)
@@ -98,7 +98,7 @@ def test_neighbours_in_the_order_have_like_legs() -> None:
     legs = [(10.0, 10.0), (50.0, 12.0), (13.0, 80.0), (56.0, 90.0)]
     parts = [Part(f"{k}", trapezoid(400, 200, *pair)) for k, pair in enumerate(legs)]
     grid = Grid(1000, 1000.0, flips=False)
-    items = [item for kind in classes_by_kind(sort_classes(parts), (0,), grid) for item in kind.items]
+    items = [item for kind in classes_by_kind(sort_classes(parts), lambda _: (0,), grid) for item in kind.items]
     ring = [sorted(items, key=lambda item: item.part)[k].part for k in chain_order(sorted(items, key=lambda i: i.part))]
     assert {frozenset(pair) for pair in pairwise([*ring, ring[0]])} == {
         frozenset(pair) for pair in ((0, 1), (2, 3), (0, 2), (1, 3))

@@ -30,8 +30,8 @@ def round_to(values: Floats, decimals: int | None) -> Floats:
     array([1234.568,    0.   ,    0.   ])
     >>> round_to(np.array([1.23456789e-14]), None)
     array([1.23457e-14])
-    >>> round_to(np.array([12345.678901234567]), 12)
-    array([12345.6789012346])
+    >>> round_to(np.array([12345.678901234567]), 12).tolist()
+    [12345.6789012346]
     """
     if decimals is None:
         return np.array([float(f"{value:.{_SIGNIFICANT}g}") for value in values], dtype=float)

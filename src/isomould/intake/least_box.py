@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from isomould.arrays import Floats
+from isomould.ties import NOISE
 
 _LEVEL = 1e-6
 """What counts as level or upright, rad."""
@@ -25,8 +26,8 @@ def odd_angle(outline: Floats) -> float:
 
     Examples
     --------
-    >>> square = np.array([[0.0, 0.0], [4.0, 3.0], [1.0, 7.0], [-3.0, 4.0]])
-    >>> round(math.degrees(odd_angle(square)), 2)
+    >>> plate = np.array([[0.0, 0.0], [8.0, 6.0], [5.0, 10.0], [-3.0, 4.0]])
+    >>> round(math.degrees(odd_angle(plate)), 2)
     -36.87
     """
     if _lies_level(outline):
@@ -37,7 +38,7 @@ def odd_angle(outline: Floats) -> float:
     # Equal boxes along several sides: the longest side decides, then the first.
     area = np.round(boxes.prod(axis=1) / boxes.prod(axis=1).min(), 9)
     best = int(np.lexsort((-np.round(length, 6), area))[0])
-    upright = boxes[best, 0] < boxes[best, 1]
+    upright = boxes[best, 0] < boxes[best, 1] - NOISE
     turn = -float(angles[best]) + (math.pi / 2 if upright else 0.0)
     drawn = float(np.ptp(hull, axis=0).prod())
     spared = 1 - float(boxes[best].prod()) / drawn
