@@ -62,7 +62,7 @@ def _bars(chance: np.random.Generator, section: str, *, hundreds: bool) -> list[
     every = np.arange(3000, 9001, 100 if hundreds else 1)
     lengths = chance.choice(every, chance.integers(1, 4), replace=False).tolist()
     prices = chance.choice([0.0, 0.0, 0.1, 7.0, 11.5, 12.0], len(lengths)).tolist()
-    quantities = [(None, 0, 1, 3)[k] for k in chance.integers(4, size=len(lengths))]
+    quantities = [(None, 1, 2, 3)[k] for k in chance.integers(4, size=len(lengths))]
     return [
         BarStock(section=section, length=float(length), price=price, quantity=quantity)
         for length, price, quantity in zip(lengths, prices, quantities, strict=True)

@@ -86,7 +86,8 @@ def _most_from(rack: BarRack, need: Need, kind: int, worth: Floats) -> tuple[Flo
     steps = (rack.sizes // step).tolist()
     for size in range(len(steps) - 1, -1, -1):
         best = most[size + 1].copy()
-        for _ in range(int(copies_of(rack, need.counts)[size])):
+        fits = len(best) > steps[size]  # shorter bars do not hold the longest pieces
+        for _ in range(int(copies_of(rack, need.counts)[size]) if fits else 0):
             with_one = best[: len(best) - steps[size]] + worth[size]
             best[steps[size] :] = np.maximum(best[steps[size] :], with_one)
         most[size] = best
